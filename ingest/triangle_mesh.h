@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Imath/ImathVec.h>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace scree {
+
+/// Triangles over shared vertices, in the file's unit; counter-clockwise seen from outside.
+struct TriangleMesh {
+    std::vector<Imath::V3d> positions;
+    std::vector<std::array<uint32_t, 3>> triangles;
+};
+
+/// Reads OBJ, PLY, STL or OFF (by extension; text or binary); polygons are triangulated, exact duplicates of
+/// vertices are merged (STL), faces of no area are dropped. Throws InputError naming the file and the defect.
+TriangleMesh read_mesh(const std::filesystem::path& path);
+
+/// What `scree info` says of a mesh.
+struct MeshReport {
+    uint64_t vertices = 0, faces = 0;
+    bool closed = false;              ///< every edge has exactly two faces
+    bool oriented = false;            ///< neighbouring faces agree on which side is out
+    uint64_t self_intersections = 0;  ///< pairs of faces that meet elsewhere than at a shared edge or vertex
+    double volume = 0;                ///< signed, by the divergence theorem; negative: faces look inward
+    Imath::V3d lo{0}, hi{0};          ///< bounds
+};
+
+/// Whether the surface is closed and consistently oriented (edge by edge; cheap).
+bool is_closed_and_oriented(const TriangleMesh& mesh);
+
+/// Signed volume by the divergence theorem, summed about the middle of the bounds.
+double signed_volume(const TriangleMesh& mesh);
+
+/// Everything of MeshReport; the self-intersections are found exactly with CGAL.
+MeshReport report_mesh(const TriangleMesh& mesh);
+
+} // namespace scree
