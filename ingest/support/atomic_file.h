@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+
+namespace scree {
+
+/// A file that appears whole or not at all: written under another name in the same folder, then renamed.
+class AtomicFile {
+public:
+    /// target: where the file shall appear; an existing file there stays until `commit`.
+    /// Throws InputError when the folder does not exist or cannot be written.
+    explicit AtomicFile(std::filesystem::path target);
+
+    /// Removes what was written unless it was committed.
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    /// Where to write meanwhile: beside the target, with the target's extension (some writers choose the format by it).
+    const std::filesystem::path& temporary() const { return temporary_; }
+
+    /// Renames the finished file to its target. Throws InputError when that fails.
+    void commit();
+
+private:
+    std::filesystem::path target_, temporary_;
+    bool committed_ = false;
+};
+
+} // namespace scree

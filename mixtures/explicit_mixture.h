@@ -1,0 +1,36 @@
+#pragma once
+
+#include "ingest/particle_frame.h"
+#include "mixtures/mixture.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace scree {
+
+/// A grain type for every sphere, one by one, as a simulation gives it; one byte a sphere for up to 256 types.
+class ExplicitMixture final : public Mixture {
+public:
+    /// types[i] is the type of sphere i; all below 65536.
+    explicit ExplicitMixture(const std::vector<uint32_t>& types);
+
+    uint32_t type(uint64_t index, const Imath::V3f&) const override
+    {
+        return wide_.empty() ? narrow_[index] : wide_[index];
+    }
+    uint64_t size() const { return wide_.empty() ? narrow_.size() : wide_.size(); }
+
+private:
+    std::vector<uint8_t> narrow_;  // used while every type fits
+    std::vector<uint16_t> wide_;   // else
+};
+
+/// The explicit mixture of a frame: its own type numbers, through `type_map` (file's number -> grain type).
+///
+/// Throws InputError naming `place` when a sphere has a type the map lacks.
+std::unique_ptr<ExplicitMixture> mixture_from_frame(const ParticleFrame& frame, const std::map<int32_t, uint32_t>& type_map,
+                                                    const std::string& place);
+
+} // namespace scree

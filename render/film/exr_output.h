@@ -1,0 +1,32 @@
+#pragma once
+
+#include "render/film/film.h"
+#include "render/scene/scene_description.h"
+
+#include <Imath/ImathMatrix.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace scree {
+
+/// What an EXR says of how it came to be.
+struct PictureMetadata {
+    std::map<std::string, std::string> texts;  ///< EXR string attributes
+    std::map<std::string, double> numbers;     ///< EXR float attributes
+    Imath::M44d world_to_camera, world_to_ndc;
+    double depth_scale = 1;                    ///< from render coordinates to the scene's unit
+};
+
+/// Writes the picture as 32-bit float scan lines: R G B, and per AOV albedo.R .G .B, N.X .Y .Z, Z (0 where nothing was
+/// met), variance.R .G .B (of the pixel's mean), and as 32-bit integers type, id (4294967295 where there is no grain)
+/// and samples. The data window is the rendered part. The file appears whole or not at all. Throws InputError.
+void write_exr(const std::filesystem::path& path, const Film& film, const std::vector<Aov>& aov,
+               const PictureMetadata& metadata);
+
+/// Writes an 8-bit sRGB picture for looking at (PNG, JPEG, ... by the extension), clipped at white = 1.
+void write_preview(const std::filesystem::path& path, const Film& film);
+
+} // namespace scree

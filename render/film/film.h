@@ -1,0 +1,66 @@
+#pragma once
+
+#include "render/math.h"
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace scree {
+
+inline constexpr uint32_t no_grain = std::numeric_limits<uint32_t>::max(); ///< type and id where there is no grain
+
+/// What a path met first, for the auxiliary pictures.
+struct FirstHit {
+    bool hit = false;
+    C3f albedo{0};
+    V3f normal{0};
+    double depth = 0;          ///< along the view, render coordinates
+    uint32_t type = no_grain;
+    uint64_t id = no_grain;
+};
+
+/// A pixel's running sums; double, so that 2^20 samples add without loss.
+struct Pixel {
+    uint32_t drawn = 0;   ///< samples taken
+    uint32_t samples = 0; ///< of them, those that were finite: the others are dropped
+    uint32_t hits = 0;    ///< of them, those that met something
+    Imath::V3d sum{0}, sum_of_squares{0};
+    C3f albedo{0};
+    V3f normal{0};
+    double depth = 0;
+    uint32_t type = no_grain, id = no_grain; ///< of the first sample
+
+    void add(const C3f& radiance, const FirstHit& first);
+    C3f mean() const;
+    /// Variance of the mean, per channel; 0 below two samples.
+    C3f variance() const;
+};
+
+/// Rows of pixels of the part of a picture that is rendered.
+class Film {
+public:
+    /// x0..x1, y0..y1: pixels rendered (x1, y1 excluded) of a width x height picture.
+    Film(int width, int height, int x0, int y0, int x1, int y1);
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    int x0() const { return x0_; }
+    int y0() const { return y0_; }
+    int x1() const { return x1_; }
+    int y1() const { return y1_; }
+    Pixel& at(int x, int y) { return pixels_[index(x, y)]; }
+    const Pixel& at(int x, int y) const { return pixels_[index(x, y)]; }
+    std::vector<Pixel>& pixels() { return pixels_; }
+    const std::vector<Pixel>& pixels() const { return pixels_; }
+
+private:
+    size_t index(int x, int y) const
+    {
+        return static_cast<size_t>(y - y0_) * static_cast<size_t>(x1_ - x0_) + static_cast<size_t>(x - x0_);
+    }
+    int width_, height_, x0_, y0_, x1_, y1_;
+    std::vector<Pixel> pixels_;
+};
+
+} // namespace scree

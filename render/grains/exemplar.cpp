@@ -1,0 +1,127 @@
+#include "render/grains/exemplar.h"
+
+#include "ingest/support/error.h"
+#include "render/grains/enclosing_sphere.h"
+
+#include <embree3/rtcore.h>
+
+namespace scree {
+
+namespace {
+
+/// What a ray inside an exemplar carries to the filter; Embree hands the context back.
+struct Query {
+    RTCIntersectContext context;
+    uint32_t skip;
+    float wanted; // sign of Ng . d that is let through; 0: both
+};
+
+void keep_wanted_faces(const RTCFilterFunctionNArguments* args)
+{
+    const auto* query = reinterpret_cast<const Query*>(args->context);
+    const auto* ray = reinterpret_cast<const RTCRay*>(args->ray);
+    const auto* hit = reinterpret_cast<const RTCHit*>(args->hit);
+    const float side = hit->Ng_x * ray->dir_x + hit->Ng_y * ray->dir_y + hit->Ng_z * ray->dir_z;
+    if (hit->primID == query->skip || side * query->wanted < 0) args->valid[0] = 0;
+}
+
+} // namespace
+
+Exemplar::Exemplar(const EmbreeDevice& device, const TriangleMesh& mesh, const std::string& place)
+    : triangles_(mesh.triangles)
+{
+    const auto [centre, radius] = smallest_enclosing_sphere(mesh.positions);
+    if (!(radius > 0)) throw InputError(place, "a mesh without extent", "a shape of some size");
+    // A hair inside, so that rounding to float leaves no vertex outside the unit sphere.
+    const double scale = (1 - 0x1p-22) / radius;
+    positions_.reserve(mesh.positions.size());
+    for (const V3d& p : mesh.positions) positions_.emplace_back((p - centre) * scale);
+
+    closed_ = is_closed_and_oriented(mesh);
+    if (closed_ && signed_volume(mesh) < 0) {
+        for (auto& triangle : triangles_) std::swap(triangle[1], triangle[2]);
+    }
+
+    scene_ = rtcNewScene(device.get());
+    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<V3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                               sizeof(V3f), positions_.size()));
+    auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                   3 * sizeof(uint32_t), triangles_.size()));
+    device.check("building an exemplar");
+    std::copy(positions_.begin(), positions_.end(), vertices);
+    for (size_t i = 0; i < triangles_.size(); ++i) std::copy(triangles_[i].begin(), triangles_[i].end(), indices + 3 * i);
+    rtcSetGeometryIntersectFilterFunction(geometry, keep_wanted_faces);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene_);
+    device.check("building an exemplar");
+}
+
+Exemplar::~Exemplar()
+{
+    if (scene_) rtcReleaseScene(scene_);
+}
+
+std::array<V3d, 3> Exemplar::corners(uint32_t triangle) const
+{
+    const auto& t = triangles_[triangle];
+    return {V3d(positions_[t[0]]), V3d(positions_[t[1]]), V3d(positions_[t[2]])};
+}
+
+V3d Exemplar::point(const ExemplarHit& hit) const
+{
+    const auto [a, b, c] = corners(hit.triangle);
+    return a + static_cast<double>(hit.u) * (b - a) + static_cast<double>(hit.v) * (c - a);
+}
+
+V3d Exemplar::normal(uint32_t triangle) const
+{
+    const auto [a, b, c] = corners(triangle);
+    return (b - a).cross(c - a).normalized();
+}
+
+uint64_t Exemplar::bytes() const
+{
+    return positions_.size() * sizeof(V3f) + triangles_.size() * sizeof(triangles_[0]);
+}
+
+bool Exemplar::intersect(const V3d& o, const V3d& d, double tmax, Facing facing, uint32_t skip, ExemplarHit& hit) const
+{
+    V3d start = o;
+    if (skip != no_triangle) {
+        // Rounding to float moves a coordinate of size <= 1 by up to 2^-25, and Embree's own subtraction rounds once more:
+        // step off the face by that bound, so that the neighbours of `skip` are seen from the right side.
+        const V3d n = normal(skip);
+        const double bound = 0x1p-23 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+        start += std::copysign(bound, n.dot(d)) * n;
+    }
+    Query query;
+    rtcInitIntersectContext(&query.context);
+    query.skip = skip;
+    query.wanted = !closed_ ? 0.0f : facing == Facing::entering ? -1.0f : 1.0f;
+
+    RTCRayHit ray;
+    ray.ray.org_x = static_cast<float>(start.x);
+    ray.ray.org_y = static_cast<float>(start.y);
+    ray.ray.org_z = static_cast<float>(start.z);
+    ray.ray.dir_x = static_cast<float>(d.x);
+    ray.ray.dir_y = static_cast<float>(d.y);
+    ray.ray.dir_z = static_cast<float>(d.z);
+    ray.ray.tnear = 0;
+    ray.ray.tfar = static_cast<float>(tmax);
+    ray.ray.time = 0;
+    ray.ray.mask = ~0u;
+    ray.ray.id = 0;
+    ray.ray.flags = 0;
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_, &query.context, &ray);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    hit = {ray.ray.tfar, ray.hit.primID, ray.hit.u, ray.hit.v};
+    return true;
+}
+
+} // namespace scree

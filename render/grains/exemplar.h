@@ -1,0 +1,62 @@
+#pragma once
+
+#include "ingest/triangle_mesh.h"
+#include "render/math.h"
+#include "render/scene/embree_device.h"
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct RTCSceneTy;
+
+namespace scree {
+
+/// Which faces a ray may meet: outside a grain those it enters through, inside those it leaves through.
+enum class Facing : uint8_t { entering, leaving };
+
+inline constexpr uint32_t no_triangle = std::numeric_limits<uint32_t>::max();
+
+struct ExemplarHit {
+    double t = 0; ///< along the ray, in units of the bounding sphere's radius
+    uint32_t triangle = no_triangle;
+    float u = 0, v = 0; ///< barycentric coordinates as Embree has them
+};
+
+/// The shape of a grain type as a triangle mesh inside the unit sphere, with its own BVH; traced in the grain's frame.
+///
+/// Closed meshes are turned outwards. Open ones (leaves, fibres) show both sides of every face.
+class Exemplar {
+public:
+    /// Moves and scales the mesh into the unit sphere around the centre of its smallest enclosing sphere.
+    /// Throws InputError naming `place` when the mesh has no extent.
+    Exemplar(const EmbreeDevice& device, const TriangleMesh& mesh, const std::string& place);
+    ~Exemplar();
+    Exemplar(const Exemplar&) = delete;
+    Exemplar& operator=(const Exemplar&) = delete;
+
+    /// Nearest face of the wanted facing along o + t d, 0 <= t <= tmax. o lies within the unit sphere (or on it), d is unit.
+    /// `skip` is the face o lies on, if any.
+    bool intersect(const V3d& o, const V3d& d, double tmax, Facing facing, uint32_t skip, ExemplarHit& hit) const;
+
+    /// The point of a hit, from the vertices, in double.
+    V3d point(const ExemplarHit& hit) const;
+    /// Unit geometric normal, outwards for a closed mesh.
+    V3d normal(uint32_t triangle) const;
+
+    bool closed() const { return closed_; }
+    uint64_t triangle_count() const { return triangles_.size(); }
+    uint64_t bytes() const;
+
+private:
+    std::array<V3d, 3> corners(uint32_t triangle) const;
+
+    std::vector<V3f> positions_;
+    std::vector<std::array<uint32_t, 3>> triangles_;
+    bool closed_ = false;
+    RTCSceneTy* scene_ = nullptr;
+};
+
+} // namespace scree

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "render/film/film.h"
+#include "render/sampler.h"
+#include "render/scene/tracer.h"
+
+#include <vector>
+
+namespace scree {
+
+/// How direct light is found: by both strategies (weighed), or by one alone, for tests.
+enum class DirectLight : uint8_t { both, lights_only, scattering_only };
+
+struct EptOptions {
+    DirectLight direct_light = DirectLight::both;
+    uint32_t max_depth = 0; ///< scattering events after which a path is cut, which biases; 0: never
+};
+
+/// One vertex of a replayed path.
+struct PathVertex {
+    V3d o, d;          ///< the ray that was traced, render coordinates
+    Hit hit;
+    bool inside = false;
+    C3f weight, radiance; ///< of the path up to here, after the vertex was handled
+};
+
+struct PathResult {
+    C3f radiance{0};
+    FirstHit first;
+    uint32_t segments = 0; ///< rays traced, shadow rays not counted
+    uint32_t shadow_rays = 0;
+    uint32_t leaks = 0;    ///< rays inside a mesh that rounding let escape
+    bool cut = false;      ///< by max_depth
+};
+
+/// Explicit path tracing: grains as they are, unidirectional, with next-event estimation and multiple importance
+/// sampling (Veach 1997, power heuristic). Unbiased: no clamp and no bound on length, Russian roulette on the weight.
+///
+/// Weights carry basic radiance L / n^2 (see bsdf.h). `trail`, if given, receives every vertex.
+PathResult trace_ept(const World& world, const Tracer& tracer, V3d o, V3d d, Sampler& sampler, const EptOptions& options = {},
+                     std::vector<PathVertex>* trail = nullptr);
+
+} // namespace scree

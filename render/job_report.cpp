@@ -1,0 +1,128 @@
+#include "render/job_report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <sys/resource.h>
+
+namespace scree {
+
+namespace {
+
+std::string bytes_text(uint64_t bytes)
+{
+    if (bytes < 10000) return fmt::format("{} B", bytes);
+    if (bytes < 10000000) return fmt::format("{:.1f} kB", static_cast<double>(bytes) * 1e-3);
+    return fmt::format("{:.1f} MB", static_cast<double>(bytes) * 1e-6);
+}
+
+uint64_t peak_memory()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+std::string part_text(const PartReport& part)
+{
+    std::string text = fmt::format("  {:<8} {:<26} {}", part.built ? "built" : "skipped", part.part, part.reason);
+    if (part.built && part.bytes > 0) text += fmt::format(" ({}, {:.3f} s)", bytes_text(part.bytes), part.seconds);
+    return text + "\n";
+}
+
+double per_second(uint64_t n, double seconds) { return seconds > 0 ? static_cast<double>(n) / seconds : 0; }
+
+const char* kind_name(HitKind kind)
+{
+    switch (kind) {
+    case HitKind::none: return "nothing";
+    case HitKind::grain: return "grain";
+    case HitKind::surface: return "surface";
+    case HitKind::light: return "light";
+    }
+    return "";
+}
+
+} // namespace
+
+std::string plan_text(const WorldBuilder& builder, const World& world, size_t frame)
+{
+    const SceneDescription& scene = builder.scene();
+    std::string text = fmt::format("{}: {}x{}, integrator {}", scene.file.string(), scene.film.width, scene.film.height, scene.integrator);
+    if (scene.integrator == "auto") text += " (explicit path tracing)";
+    text += builder.frame_name(frame).empty() ? "\n" : fmt::format(", frame {} of {}: {}\n", frame, builder.frame_count(), builder.frame_name(frame));
+    for (const PartReport& part : builder.parts()) text += part_text(part);
+
+    bool glass = false;
+    for (const GrainType& type : world.types) glass |= type.material.transmits();
+    const bool cut = glass && world.grains.size() > 0 && !world.surfaces.empty();
+    text += part_text({"surfaces inside grains", cut, cut ? "a second structure of the surfaces, for grains they cut through"
+                                                         : "no path can be inside a grain and meet a surface"});
+    text += part_text({"light sampling", world.lights.any_sampled(), world.lights.any_sampled()
+                           ? "next-event estimation with multiple importance sampling" : "only constant light, which every path finds"});
+    for (size_t i = 0; i < aov_names.size(); ++i) {
+        const bool wanted = std::find(scene.film.aov.begin(), scene.film.aov.end(), static_cast<Aov>(i)) != scene.film.aov.end();
+        text += part_text({"channels " + aov_names[i], wanted, wanted ? "asked for" : "not asked for"});
+    }
+    text += fmt::format("  would trace {} grains of {} types among {} surfaces under {} lights\n", world.grains.size(), world.types.size(),
+                        world.surfaces.size(), world.lights.lights().size());
+    return text;
+}
+
+std::string statistics_text(const FrameReport& report)
+{
+    const RenderStatistics& s = report.statistics;
+    std::string text = fmt::format("frame {} {}: {} grains\n", report.frame, report.name, report.grains);
+    for (const PartReport& part : report.parts) text += part_text(part);
+    text += fmt::format("  set up in {:.2f} s, rendered in {:.2f} s: {} samples a pixel, {} paths\n", report.setup_seconds, s.seconds, s.spp, s.paths);
+    text += fmt::format("  {} segments ({:.3f} million a second), {} shadow rays, {:.2f} segments a path, longest {}\n", s.segments,
+                        1e-6 * per_second(s.segments, s.seconds), s.shadow_rays, static_cast<double>(s.segments) / static_cast<double>(std::max<uint64_t>(1, s.paths)), s.longest);
+    text += fmt::format("  {} samples not finite, {} rays lost between triangles, peak memory {}\n", s.non_finite, s.leaks, bytes_text(peak_memory()));
+    return text;
+}
+
+std::string statistics_json(const std::vector<FrameReport>& reports)
+{
+    using nlohmann::json;
+    json frames = json::array();
+    for (const FrameReport& report : reports) {
+        const RenderStatistics& s = report.statistics;
+        json parts = json::array();
+        for (const PartReport& part : report.parts) {
+            parts.push_back({{"part", part.part}, {"built", part.built}, {"reason", part.reason}, {"seconds", part.seconds}, {"bytes", part.bytes}});
+        }
+        frames.push_back({{"frame", report.frame}, {"particles", report.name}, {"grains", report.grains}, {"parts", parts},
+                          {"setup_seconds", report.setup_seconds}, {"render_seconds", s.seconds}, {"spp", s.spp}, {"paths", s.paths},
+                          {"segments", s.segments}, {"shadow_rays", s.shadow_rays}, {"longest_path", s.longest},
+                          {"segments_per_second", per_second(s.segments, s.seconds)}, {"non_finite", s.non_finite}, {"leaks", s.leaks},
+                          {"cut", s.cut}, {"cancelled", s.cancelled}, {"timed_out", s.timed_out}});
+    }
+    return json{{"version", SCREE_VERSION}, {"integrator", "ept"}, {"peak_memory_bytes", peak_memory()}, {"frames", frames}}.dump(2) + "\n";
+}
+
+std::string debug_text(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter,
+                       const SamplePlace& place, const RenderOptions& options)
+{
+    flush_subnormals();
+    std::vector<PathVertex> trail;
+    const PathResult result = render_sample(world, tracer, camera, filter, place.x, place.y, place.sample, options, &trail);
+    std::string text = fmt::format("pixel {},{} sample {}: radiance {} {} {}, {} segments\n", place.x, place.y, place.sample,
+                                   result.radiance.x, result.radiance.y, result.radiance.z, result.segments);
+    for (size_t i = 0; i < trail.size(); ++i) {
+        const PathVertex& v = trail[i];
+        const V3d o = world.space.world_point(v.o), p = world.space.world_point(v.hit.point);
+        text += fmt::format("{:4} from ({:.9g} {:.9g} {:.9g}) along ({:.6f} {:.6f} {:.6f}){} meets {}", i, o.x, o.y, o.z, v.d.x, v.d.y, v.d.z,
+                            v.inside ? " inside" : "", kind_name(v.hit.place.kind));
+        if (v.hit.place.kind == HitKind::grain) {
+            text += fmt::format(" id {} type {}", world.grains.id(v.hit.place.index), world.types[world.grains.type_codes[v.hit.place.index]].name);
+        } else if (v.hit.place.kind == HitKind::surface) {
+            text += " " + world.surfaces[v.hit.place.index].name;
+        }
+        if (v.hit.place.kind != HitKind::none) text += fmt::format(" at ({:.9g} {:.9g} {:.9g})", p.x, p.y, p.z);
+        text += fmt::format("; weight {:.6g} {:.6g} {:.6g}, radiance {:.6g} {:.6g} {:.6g}\n", v.weight.x, v.weight.y, v.weight.z,
+                            v.radiance.x, v.radiance.y, v.radiance.z);
+    }
+    return text;
+}
+
+} // namespace scree

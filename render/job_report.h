@@ -1,0 +1,33 @@
+#pragma once
+
+#include "render/render_loop.h"
+#include "render/scene/world_builder.h"
+
+#include <string>
+#include <vector>
+
+namespace scree {
+
+/// What rendering one frame took.
+struct FrameReport {
+    size_t frame = 0;
+    std::string name;
+    std::vector<PartReport> parts;
+    double setup_seconds = 0;
+    uint64_t grains = 0;
+    RenderStatistics statistics{};
+};
+
+/// What would be built for this world and what is skipped, and why; a line a part.
+std::string plan_text(const WorldBuilder& builder, const World& world, size_t frame);
+
+std::string statistics_text(const FrameReport& report);
+
+/// All frames as one JSON object.
+std::string statistics_json(const std::vector<FrameReport>& reports);
+
+/// One sample again, vertex by vertex, in the scene's unit.
+std::string debug_text(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter,
+                       const SamplePlace& place, const RenderOptions& options);
+
+} // namespace scree

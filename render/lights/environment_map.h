@@ -1,0 +1,36 @@
+#pragma once
+
+#include "render/distribution2d.h"
+#include "render/math.h"
+
+#include <vector>
+
+namespace scree {
+
+/// A latitude-longitude picture of the far surroundings; bilinear, importance sampled.
+///
+/// The top row looks along `up`. For up = +z the middle of the picture looks along +x and its left quarter along +y
+/// (as in Blender); other ups turn that by the shortest rotation from +z.
+class EnvironmentMap {
+public:
+    /// texels: height rows of width radiances, top row first; all >= 0 and finite.
+    EnvironmentMap(std::vector<C3f> texels, size_t width, size_t height, const V3d& up, const C3f& scale);
+
+    C3f radiance(const V3d& direction) const;
+    /// Unit direction with density `pdf(direction)` per solid angle.
+    V3d sample(double u1, double u2) const;
+    double pdf(const V3d& direction) const;
+    /// Mean radiance over the sphere.
+    C3f mean() const;
+
+private:
+    V2d to_square(const V3d& direction) const;
+    const C3f& texel(size_t x, size_t y) const { return texels_[y * width_ + x]; }
+
+    std::vector<C3f> texels_;
+    size_t width_, height_;
+    Imath::M33d to_map_, to_world_;
+    Distribution2D distribution_;
+};
+
+} // namespace scree

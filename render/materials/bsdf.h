@@ -1,0 +1,28 @@
+#pragma once
+
+#include "render/materials/material.h"
+#include "render/sampler.h"
+
+namespace scree {
+
+// Scattering at a surface. Directions are in the local frame of the geometric normal (z outwards) and point away from
+// the surface; wo.z < 0 means that the path is inside. Weights carry basic radiance L / n^2: an interface conserves it,
+// and as no light and no camera stands inside a dielectric, no factor n^2 is ever needed.
+
+struct BsdfSample {
+    V3d wi{0};
+    C3f weight{0};      ///< f |cos| / density
+    double pdf = 0;     ///< pdf_bsdf(wo, wi); 0 for a delta direction
+    bool valid = false;
+};
+
+/// Draws wi; invalid where nothing is scattered or a number was not finite.
+BsdfSample sample_bsdf(const Material& material, const V3d& wo, Sampler& sampler);
+
+/// f(wo, wi) |wi.z|; for rough dielectrics and conductors one unbiased estimate of it. 0 for delta materials.
+C3f eval_bsdf(const Material& material, const V3d& wo, const V3d& wi, Sampler& sampler);
+
+/// The density of sample_bsdf (for rough dielectrics and conductors a stand-in, see proxy_pdf_walk); 0 for delta.
+double pdf_bsdf(const Material& material, const V3d& wo, const V3d& wi);
+
+} // namespace scree

@@ -1,0 +1,131 @@
+#include "render/render_command.h"
+
+#include "ingest/support/error.h"
+#include "render/render_job.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace scree {
+
+namespace {
+
+/// Numbers of "a<separator>b...": exactly `count`, or an InputError that names the option.
+std::vector<double> split_numbers(const std::string& text, char separator, size_t count, const std::string& option,
+                                  const std::string& expected)
+{
+    std::vector<double> numbers;
+    size_t begin = 0;
+    while (begin <= text.size()) {
+        const size_t end = std::min(text.find(separator, begin), text.size());
+        const std::string part = text.substr(begin, end - begin);
+        char* rest = nullptr;
+        const double x = std::strtod(part.c_str(), &rest);
+        if (part.empty() || *rest != 0 || !std::isfinite(x)) throw InputError(option, "'" + text + "'", expected);
+        numbers.push_back(x);
+        begin = end + 1;
+    }
+    if (numbers.size() != count) throw InputError(option, "'" + text + "'", expected);
+    return numbers;
+}
+
+/// "A:B" or "A:B:STEP" or "A", frames counted from 0, B included.
+FrameRange parse_frames(const std::string& text)
+{
+    const auto colons = static_cast<size_t>(std::count(text.begin(), text.end(), ':'));
+    const auto n = split_numbers(text, ':', std::min<size_t>(colons, 2) + 1, "--frames", "A, A:B or A:B:STEP, counted from 0");
+    for (const double x : n) {
+        if (x < 0 || x != std::floor(x) || x > 1e9) throw InputError("--frames", "'" + text + "'", "whole numbers from 0");
+    }
+    FrameRange range{static_cast<size_t>(n[0]), static_cast<size_t>(n.size() > 1 ? n[1] : n[0]), n.size() > 2 ? static_cast<size_t>(n[2]) : 1};
+    if (range.step == 0 || range.last < range.first) throw InputError("--frames", "'" + text + "'", "A <= B and a STEP of at least 1");
+    return range;
+}
+
+struct Arguments {
+    std::string size, crop, pixels, frames, debug, strategy = "both";
+    std::vector<std::string> overrides, aov;
+    RenderJob job;
+};
+
+void take_over(Arguments& a)
+{
+    RenderJob& job = a.job;
+    if (!a.size.empty()) {
+        const auto n = split_numbers(a.size, 'x', 2, "--size", "WIDTHxHEIGHT, e.g. 640x480");
+        if (n[0] < 1 || n[1] < 1 || n[0] > 65536 || n[1] > 65536) throw InputError("--size", "'" + a.size + "'", "1x1 to 65536x65536");
+        job.size = {static_cast<int>(n[0]), static_cast<int>(n[1])};
+    }
+    if (!a.crop.empty()) {
+        const auto n = split_numbers(a.crop, ',', 4, "--cropwindow", "x0,x1,y0,y1 in 0..1");
+        if (n[0] < 0 || n[1] > 1 || n[0] >= n[1] || n[2] < 0 || n[3] > 1 || n[2] >= n[3]) {
+            throw InputError("--cropwindow", "'" + a.crop + "'", "0 <= x0 < x1 <= 1 and 0 <= y0 < y1 <= 1");
+        }
+        job.crop = {n[0], n[1], n[2], n[3]};
+    }
+    if (!a.pixels.empty()) {
+        const auto n = split_numbers(a.pixels, ',', 4, "--pixelbounds", "x0,x1,y0,y1 in pixels");
+        job.pixel_bounds = std::array<int, 4>{static_cast<int>(n[0]), static_cast<int>(n[1]), static_cast<int>(n[2]), static_cast<int>(n[3])};
+    }
+    if (!a.frames.empty()) job.frames = parse_frames(a.frames);
+    if (!a.debug.empty()) {
+        const auto n = split_numbers(a.debug, ',', 3, "--debug-sample", "x,y,sample");
+        job.debug_sample = SamplePlace{static_cast<int>(n[0]), static_cast<int>(n[1]), static_cast<uint32_t>(n[2])};
+    }
+    for (const std::string& item : a.overrides) {
+        const size_t equals = item.find('=');
+        if (equals == std::string::npos || equals == 0) throw InputError("-D", "'" + item + "'", "key=value, e.g. camera.fov=40");
+        job.overrides.emplace_back(item.substr(0, equals), item.substr(equals + 1));
+    }
+    for (const std::string& name : a.aov) {
+        const auto it = std::find(aov_names.begin(), aov_names.end(), name);
+        if (it == aov_names.end()) {
+            throw InputError("--aov", "'" + name + "'", fmt::format("one of {}", fmt::join(aov_names, ", ")));
+        }
+        job.aov.push_back(static_cast<Aov>(it - aov_names.begin()));
+    }
+    const std::vector<std::string> strategies{"both", "lights", "scattering"};
+    job.options.ept.direct_light = static_cast<DirectLight>(std::find(strategies.begin(), strategies.end(), a.strategy) - strategies.begin());
+}
+
+} // namespace
+
+void add_render_command(CLI::App& app)
+{
+    auto arguments = std::make_shared<Arguments>();
+    Arguments& a = *arguments;
+    RenderJob& job = a.job;
+    CLI::App* command = app.add_subcommand("render", "Render a scene to pictures");
+    command->add_option("scene", job.scene, "Scene file (JSON)")->required();
+    command->add_option("-o,--output", job.outputs,
+                        "Picture to write: .exr, or .png, .jpg for looking at; repeatable; %04d takes the frame number (default: the scene's name .exr)");
+    command->add_option("--spp", job.spp, "Samples a pixel (default 64, or what --timeout allows)")->check(CLI::Range(1u, 1u << 30));
+    command->add_option("--timeout", job.options.timeout, "Stop after this many seconds of rendering a frame")->check(CLI::PositiveNumber);
+    command->add_option("--integrator", job.integrator, "auto or ept")->check(CLI::IsMember({"auto", "ept"}));
+    command->add_option("--frames", a.frames, "Frames to render, counted from 0: A, A:B or A:B:STEP, B included (default: the first)");
+    command->add_option("--size", a.size, "Size of the picture, WIDTHxHEIGHT");
+    command->add_option("--cropwindow", a.crop, "Render only x0,x1,y0,y1 of the picture, in 0..1");
+    command->add_option("--pixelbounds", a.pixels, "Render only pixels x0,x1,y0,y1 (x1 and y1 excluded)");
+    command->add_option("--aov", a.aov, "More channels: albedo,normal,depth,type,id,variance,samples")->delimiter(',');
+    command->add_option("-t,--threads", job.threads, "Threads (default: all cores)")->check(CLI::Range(1, 4096));
+    command->add_option("--seed", job.options.seed, "Seed of the random numbers");
+    command->add_option("--max-depth", job.max_depth, "Cut paths after this many scattering events; darkens the picture (default: never)");
+    command->add_option("--direct-light", a.strategy, "How direct light is found: both, lights or scattering; for tests")
+        ->check(CLI::IsMember({"both", "lights", "scattering"}));
+    command->add_flag("--resume", job.resume, "Go on from the checkpoint that an interrupted render of the same picture left");
+    command->add_flag("--plan", job.plan_only, "Say what would be built and what is skipped, and render nothing");
+    command->add_flag("--stats", job.stats, "Print statistics at the end");
+    command->add_option("--stats-json", job.stats_json, "Write statistics to a JSON file");
+    command->add_option("--debug-sample", a.debug, "Trace one sample again, x,y,sample, and print every vertex");
+    command->add_option("-D", a.overrides, "Replace a value of the scene: -D camera.fov=40");
+    command->add_flag("-q,--quiet", job.quiet, "No progress, no remarks");
+    command->callback([arguments] {
+        take_over(*arguments);
+        const int status = run_render_job(arguments->job);
+        if (status != 0) throw CLI::RuntimeError(status);
+    });
+}
+
+} // namespace scree

@@ -1,0 +1,260 @@
+#include "render/render_job.h"
+
+#include "ingest/support/atomic_file.h"
+#include "ingest/support/console_progress.h"
+#include "ingest/support/error.h"
+#include "ingest/support/json.h"
+#include "mixtures/hash.h"
+#include "render/film/checkpoint.h"
+#include "render/film/exr_output.h"
+#include "render/interrupt.h"
+#include "render/job_report.h"
+#include "render/scene/world_builder.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <chrono>
+#include <fstream>
+
+namespace scree {
+
+namespace {
+
+constexpr int interrupted_status = 130;
+
+/// The name of a frame's picture: %d and %04d take the frame number; several frames without one get ".0007".
+std::string frame_path(const std::string& output, size_t frame, bool many)
+{
+    const size_t percent = output.find('%');
+    if (percent != std::string::npos) {
+        const size_t end = output.find('d', percent);
+        const std::string width = end == std::string::npos ? "x" : output.substr(percent + 1, end - percent - 1);
+        const bool digits = width.find_first_not_of("0123456789") == std::string::npos && width.size() < 4;
+        if (!digits) throw InputError("--output", "'" + output + "'", "%d or a form such as %04d for the frame number");
+        const int count = width.empty() ? 1 : std::stoi(width);
+        return output.substr(0, percent) + fmt::format("{:0{}}", frame, count) + output.substr(end + 1);
+    }
+    if (!many) return output;
+    std::filesystem::path path(output);
+    const std::string extension = path.extension().string();
+    return path.replace_extension().string() + fmt::format(".{:04}", frame) + extension;
+}
+
+/// The pixels a crop keeps: those whose middle lies in it, so that abutting crops share none.
+Film make_film(const RenderJob& job, const FilmDescription& film)
+{
+    const int w = film.width, h = film.height;
+    int x0 = 0, x1 = w, y0 = 0, y1 = h;
+    if (job.crop) {
+        const auto pixel = [](double fraction, int n) { return static_cast<int>(std::ceil(fraction * n - 0.5)); };
+        x0 = pixel((*job.crop)[0], w);
+        x1 = pixel((*job.crop)[1], w);
+        y0 = pixel((*job.crop)[2], h);
+        y1 = pixel((*job.crop)[3], h);
+    }
+    if (job.pixel_bounds) {
+        const auto& b = *job.pixel_bounds;
+        x0 = std::max(0, b[0]);
+        x1 = std::min(w, b[1]);
+        y0 = std::max(0, b[2]);
+        y1 = std::min(h, b[3]);
+    }
+    if (x0 >= x1 || y0 >= y1) {
+        throw InputError(job.crop ? "--cropwindow" : "--pixelbounds", "no pixel inside", fmt::format("part of the {}x{} picture", w, h));
+    }
+    return Film(w, h, x0, y0, x1, y1);
+}
+
+Camera make_camera(const SceneDescription& scene, const RenderSpace& space)
+{
+    CameraDescription c = scene.camera;
+    c.origin = space.point(c.origin);
+    c.target = space.point(c.target);
+    c.width = space.length(c.width);
+    c.aperture = space.length(c.aperture);
+    c.focus = space.length(c.focus);
+    return Camera(c, scene.film.width, scene.film.height);
+}
+
+PictureMetadata make_metadata(const RenderJob& job, const WorldBuilder& builder, const World& world, const Camera& camera,
+                              size_t frame, const RenderStatistics& statistics)
+{
+    PictureMetadata metadata;
+    metadata.texts = {{"software", "Scree"}, {"version", SCREE_VERSION}, {"integrator", "ept"},
+                      {"sceneHash", fmt::format("{:016x}", builder.scene_hash())}, {"seed", std::to_string(job.options.seed)}};
+    if (builder.scene().assembly && !builder.frame_name(frame).empty()) metadata.texts["particles"] = builder.frame_name(frame);
+    std::vector<std::string> types;
+    for (size_t i = 0; i < world.types.size(); ++i) types.push_back(fmt::format("{}={}", i, world.types[i].name));
+    if (!types.empty()) metadata.texts["grainTypes"] = fmt::format("{}", fmt::join(types, ","));
+    metadata.numbers = {{"spp", statistics.spp}, {"renderTime", statistics.seconds}, {"frame", static_cast<double>(frame)},
+                        {"nonFiniteSamples", static_cast<double>(statistics.non_finite)}};
+    const V3d o = world.space.origin;
+    const double scale = world.space.length(1);
+    const Imath::M44d to_render(scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, scale, 0, -o.x * scale, -o.y * scale, -o.z * scale, 1);
+    const double back = world.space.world_length(1);
+    // Camera space is in the scene's unit again; NDC has none.
+    metadata.world_to_camera = to_render * camera.world_to_camera() * Imath::M44d(back, 0, 0, 0, 0, back, 0, 0, 0, 0, back, 0, 0, 0, 0, 1);
+    metadata.world_to_ndc = to_render * camera.world_to_ndc();
+    metadata.depth_scale = back;
+    return metadata;
+}
+
+/// Whether a picture's name asks for EXR.
+bool is_exr(const std::filesystem::path& path) { return path.extension() == ".exr"; }
+
+void check_outputs(const std::vector<std::string>& outputs)
+{
+    for (const std::string& output : outputs) {
+        const std::filesystem::path path(output);
+        if (path.extension().empty()) throw InputError("--output", "'" + output + "'", "a name with an extension: .exr, .png, .jpg");
+        if (path.has_parent_path() && !std::filesystem::is_directory(path.parent_path())) {
+            throw InputError("--output", "no folder '" + path.parent_path().string() + "'", "a folder that exists");
+        }
+    }
+}
+
+class Job {
+public:
+    explicit Job(const RenderJob& job) : job_(job), console_(job.quiet), builder_(load_scene(job)), scene_(builder_.scene())
+    {
+        outputs_ = job.outputs;
+        if (outputs_.empty()) outputs_ = {scene_.file.stem().string() + ".exr"};
+        check_outputs(outputs_);
+        range_ = job.frames.value_or(FrameRange{});
+        if (range_.last >= builder_.frame_count()) {
+            throw InputError("--frames", std::to_string(range_.last),
+                             fmt::format("0 to {}: the dump has {} frames", builder_.frame_count() - 1, builder_.frame_count()));
+        }
+    }
+
+    int run()
+    {
+        const InterruptGuard guard(console_.progress());
+        for (size_t frame = range_.first; frame <= range_.last && !interrupted_; frame += range_.step) run_frame(frame);
+        console_.finish();
+        if (!job_.stats_json.empty() && !job_.plan_only) {
+            AtomicFile file(job_.stats_json);
+            std::ofstream(file.temporary()) << statistics_json(reports_);
+            file.commit();
+        }
+        return interrupted_ ? interrupted_status : 0;
+    }
+
+private:
+    static SceneDescription load_scene(const RenderJob& job)
+    {
+        JsonDocument document = JsonDocument::load(job.scene);
+        for (const auto& [path, value] : job.overrides) document.override_value(path, value);
+        SceneDescription scene = read_scene(document, job.scene);
+        if (job.size) std::tie(scene.film.width, scene.film.height) = *job.size;
+        for (const Aov aov : job.aov) {
+            if (std::find(scene.film.aov.begin(), scene.film.aov.end(), aov) == scene.film.aov.end()) scene.film.aov.push_back(aov);
+        }
+        if (job.max_depth > 0) scene.max_depth = job.max_depth;
+        if (!job.integrator.empty()) scene.integrator = job.integrator;
+        return scene;
+    }
+
+    void run_frame(size_t frame)
+    {
+        const bool many = range_.first != range_.last;
+        if (many) console_.set_prefix(fmt::format("frame {}", frame));
+        const auto start = std::chrono::steady_clock::now();
+        Progress& progress = console_.progress();
+        const std::shared_ptr<const World> world = builder_.build(frame, progress);
+        say_warnings();
+        if (progress.cancelled()) {
+            interrupted_ = true;
+            return;
+        }
+        if (job_.plan_only) {
+            fmt::print("{}", plan_text(builder_, *world, frame));
+            return;
+        }
+        FrameReport report;
+        report.frame = frame;
+        report.name = builder_.frame_name(frame);
+        report.parts = builder_.parts();
+        const auto before = builder_.device()->bytes();
+        const auto build_start = std::chrono::steady_clock::now();
+        const Tracer tracer(builder_.device(), *world);
+        const auto built = std::chrono::steady_clock::now();
+        report.parts.push_back({"acceleration structure", true, "Embree", std::chrono::duration<double>(built - build_start).count(),
+                                static_cast<uint64_t>(builder_.device()->bytes() - before)});
+        report.setup_seconds = std::chrono::duration<double>(built - start).count();
+        report.grains = world->grains.size();
+
+        const Camera camera = make_camera(scene_, world->space);
+        RenderOptions options = job_.options;
+        options.ept.max_depth = scene_.max_depth;
+        if (job_.spp) options.spp = *job_.spp;
+        else if (options.timeout > 0) options.spp = 1u << 30;
+        if (job_.debug_sample) {
+            fmt::print("{}", debug_text(*world, tracer, camera, scene_.film.filter, *job_.debug_sample, options));
+            return;
+        }
+        Film film = make_film(job_, scene_.film);
+        const std::filesystem::path checkpoint = frame_path(outputs_[0], frame, many) + ".checkpoint";
+        const CheckpointKey key{mix64(builder_.scene_hash() ^ mix64(options.ept.max_depth)), options.seed};
+        if (job_.resume && std::filesystem::exists(checkpoint)) read_checkpoint(checkpoint, film, key);
+
+        report.statistics = render(*world, tracer, camera, scene_.film.filter, film, options, progress);
+        interrupted_ = report.statistics.cancelled;
+        const PictureMetadata metadata = make_metadata(job_, builder_, *world, camera, frame, report.statistics);
+        for (const std::string& output : outputs_) {
+            const std::string path = frame_path(output, frame, many);
+            if (is_exr(path)) write_exr(path, film, scene_.film.aov, metadata);
+            else write_preview(path, film);
+        }
+        if (interrupted_ || (report.statistics.timed_out && job_.spp)) write_checkpoint(checkpoint, film, key);
+        else std::filesystem::remove(checkpoint);
+        console_.finish();
+        if (job_.stats) fmt::print("{}", statistics_text(report));
+        say_oddities(report.statistics);
+        reports_.push_back(std::move(report));
+    }
+
+    void say(const std::string& text)
+    {
+        console_.finish();
+        if (!job_.quiet) fmt::print(stderr, "scree: {}\n", text);
+    }
+    void say_warnings()
+    {
+        for (const std::string& warning : builder_.warnings()) {
+            if (std::find(said_.begin(), said_.end(), warning) == said_.end()) say("note: " + warning);
+            said_.push_back(warning);
+        }
+    }
+    void say_oddities(const RenderStatistics& s)
+    {
+        if (s.non_finite > 0) {
+            const SamplePlace& p = *s.first_non_finite;
+            say(fmt::format("{} samples were not finite and are left out; the first again: --debug-sample {},{},{}", s.non_finite, p.x, p.y, p.sample));
+        }
+        if (s.cancelled) say(fmt::format("interrupted: the picture holds at least {} samples a pixel; go on with --resume", s.spp));
+        else if (s.timed_out) say(fmt::format("stopped by --timeout at {} samples a pixel", s.spp));
+        if (s.cut > 0) say(fmt::format("{} of {} paths were cut by the depth limit: the picture is too dark", s.cut, s.paths));
+    }
+
+    const RenderJob& job_;
+    ConsoleProgress console_;
+    WorldBuilder builder_;
+    const SceneDescription& scene_;
+    std::vector<std::string> outputs_, said_;
+    FrameRange range_;
+    std::vector<FrameReport> reports_;
+    bool interrupted_ = false;
+};
+
+} // namespace
+
+int run_render_job(const RenderJob& job)
+{
+    std::optional<tbb::global_control> threads;
+    if (job.threads > 0) threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(job.threads));
+    return Job(job).run();
+}
+
+} // namespace scree

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "ingest/support/progress.h"
+#include "render/film/film.h"
+#include "render/film/filter.h"
+#include "render/integrators/ept.h"
+#include "render/scene/camera.h"
+
+#include <optional>
+
+namespace scree {
+
+struct RenderOptions {
+    uint32_t spp = 64;     ///< samples a pixel; with a timeout and no spp of its own, as many as the time allows
+    double timeout = 0;    ///< seconds; 0: none
+    uint64_t seed = 0;
+    EptOptions ept;
+};
+
+/// The first sample that went wrong, for --debug-sample.
+struct SamplePlace {
+    int x, y;
+    uint32_t sample;
+};
+
+struct RenderStatistics {
+    uint64_t paths = 0, segments = 0, shadow_rays = 0;
+    uint64_t non_finite = 0;  ///< samples dropped for not being finite
+    uint64_t leaks = 0;       ///< rays that rounding let out of a mesh between two of its triangles
+    uint64_t cut = 0;         ///< paths ended by a depth limit the user set
+    uint32_t longest = 0;     ///< segments of the longest path
+    uint32_t spp = 0;         ///< samples every pixel has at least
+    double seconds = 0;
+    bool cancelled = false;   ///< stopped by the user: pixels may differ in their number of samples
+    bool timed_out = false;
+    std::optional<SamplePlace> first_non_finite;
+};
+
+/// Adds samples to every pixel of the film, in waves over tiles on all threads of the caller's arena, until spp, timeout
+/// or cancellation. A sample depends on (seed, pixel, number) alone. Continues where the film stands.
+RenderStatistics render(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter, Film& film,
+                        const RenderOptions& options, const Progress& progress);
+
+/// One sample of one pixel: what `render` adds, with every vertex in `trail` if given.
+PathResult render_sample(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter, int x, int y,
+                         uint32_t sample, const RenderOptions& options, std::vector<PathVertex>* trail = nullptr);
+
+} // namespace scree

@@ -1,0 +1,56 @@
+#include "ingest/support/json.h"
+#include "render/scene/scene_description.h"
+
+namespace scree {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The GGX width of a roughness 0..1: its square, as in Blender and glTF.
+double read_alpha(JsonObject& object)
+{
+    const auto roughness = object.find("roughness");
+    if (!roughness) return 0;
+    const double r = roughness->number(0, 1);
+    return r * r;
+}
+
+C3f read_rgb(JsonObject& object, const std::string& key, const C3f& absent, double lo, double hi)
+{
+    const auto value = object.find(key);
+    return value ? value->rgb(lo, hi) : absent;
+}
+
+} // namespace
+
+Material read_material(const JsonValue& json)
+{
+    JsonObject object = json.object();
+    Material material;
+    material.kind = static_cast<MaterialKind>(object.require("kind").choice({"lambert", "dielectric", "conductor"}));
+    switch (material.kind) {
+    case MaterialKind::lambert:
+        material.reflectance = read_rgb(object, "reflectance", material.reflectance, 0, 1);
+        break;
+    case MaterialKind::dielectric: {
+        const auto ior = object.find("ior");
+        if (ior) material.ior = ior->number(0.1, 10);
+        material.alpha = read_alpha(object);
+        material.absorption = read_rgb(object, "absorption", C3f(0), 0, infinity);
+        material.tint = read_rgb(object, "tint", C3f(1), 0, 1);
+        if (material.ior == 1) material.alpha = 0; // nothing to be rough
+        break;
+    }
+    case MaterialKind::conductor:
+        material.eta = object.require("eta").rgb(0, infinity);
+        material.k = object.require("k").rgb(0, infinity);
+        material.alpha = read_alpha(object);
+        material.tint = read_rgb(object, "tint", C3f(1), 0, 1);
+        break;
+    }
+    object.done();
+    return material;
+}
+
+} // namespace scree

@@ -1,0 +1,289 @@
+#include "render/scene/scene_description.h"
+
+#include "ingest/support/json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace scree {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A number > 0.
+double read_positive(const JsonValue& value)
+{
+    const double x = value.number(0);
+    if (x <= 0) value.fail("a number above 0");
+    return x;
+}
+
+V3d read_direction(const JsonValue& value)
+{
+    const V3d v = value.vec3();
+    if (!(v.length2() > 0)) value.fail("a direction that is not 0");
+    return v;
+}
+
+CameraDescription read_camera(const JsonValue& json)
+{
+    JsonObject object = json.object();
+    CameraDescription camera;
+    if (const auto kind = object.find("kind")) camera.kind = static_cast<CameraKind>(kind->choice({"perspective", "orthographic"}));
+    camera.origin = object.require("origin").vec3();
+    const JsonValue target = object.require("target");
+    camera.target = target.vec3();
+    if (!((camera.target - camera.origin).length2() > 0)) target.fail("a target away from the origin");
+    if (const auto up = object.find("up")) camera.up = read_direction(*up);
+    if (!((camera.target - camera.origin).cross(camera.up).length2() > 0)) {
+        throw InputError(json.place(), "an 'up' along the view", "an 'up' across the view", "set \"up\" to another axis");
+    }
+    if (camera.kind == CameraKind::perspective) {
+        if (const auto fov = object.find("fov")) {
+            camera.fov = read_positive(*fov);
+            if (camera.fov >= 180) fov->fail("an angle below 180 degrees");
+        }
+    } else {
+        camera.width = read_positive(object.require("width"));
+    }
+    if (const auto aperture = object.find("aperture")) camera.aperture = aperture->number(0);
+    if (const auto focus = object.find("focus")) camera.focus = focus->number(0);
+    object.done();
+    return camera;
+}
+
+Filter read_filter(const JsonValue& json)
+{
+    Filter filter;
+    const std::vector<std::string> kinds{"box", "tent", "gaussian"};
+    const auto default_radius = [](FilterKind kind) {
+        return kind == FilterKind::box ? 0.5 : kind == FilterKind::tent ? 1.0 : 1.5;
+    };
+    if (json.is_string()) {
+        filter.kind = static_cast<FilterKind>(json.choice(kinds));
+        filter.radius = default_radius(filter.kind);
+        return filter;
+    }
+    JsonObject object = json.object();
+    filter.kind = static_cast<FilterKind>(object.require("kind").choice(kinds));
+    filter.radius = default_radius(filter.kind);
+    if (const auto radius = object.find("radius")) filter.radius = read_positive(*radius);
+    object.done();
+    return filter;
+}
+
+FilmDescription read_film(const JsonValue& json)
+{
+    JsonObject object = json.object();
+    FilmDescription film;
+    if (const auto size = object.find("size")) {
+        const auto items = size->array(2, 2);
+        film.width = static_cast<int>(items[0].integer(1, 65536));
+        film.height = static_cast<int>(items[1].integer(1, 65536));
+    }
+    if (const auto filter = object.find("filter")) film.filter = read_filter(*filter);
+    if (const auto aov = object.find("aov")) {
+        for (const JsonValue& name : aov->array()) {
+            const auto which = static_cast<Aov>(name.choice(aov_names));
+            if (std::find(film.aov.begin(), film.aov.end(), which) == film.aov.end()) film.aov.push_back(which);
+        }
+    }
+    object.done();
+    return film;
+}
+
+LightDescription read_light(const JsonValue& json)
+{
+    using Kind = LightDescription::Kind;
+    JsonObject object = json.object();
+    LightDescription light;
+    light.place = json.place();
+    light.kind = static_cast<Kind>(object.require("kind").choice({"constant", "environment", "distant", "rectangle", "sphere"}));
+    const auto rgb = [&](const char* key, C3f& value) {
+        if (const auto found = object.find(key)) value = found->rgb(0, infinity);
+    };
+    switch (light.kind) {
+    case Kind::constant: rgb("radiance", light.radiance); break;
+    case Kind::environment:
+        light.file = object.require("file").path();
+        rgb("scale", light.scale);
+        if (const auto up = object.find("up")) light.up = read_direction(*up);
+        break;
+    case Kind::distant:
+        light.direction = read_direction(object.require("direction"));
+        rgb("irradiance", light.irradiance);
+        if (const auto angle = object.find("angle")) light.angle = angle->number(0, 180);
+        break;
+    case Kind::rectangle: {
+        light.corner = object.require("corner").vec3();
+        const JsonValue edges = object.require("edges");
+        const auto items = edges.array(2, 2);
+        light.edge1 = items[0].vec3();
+        light.edge2 = items[1].vec3();
+        if (!(light.edge1.cross(light.edge2).length2() > 0)) edges.fail("two edges that span an area");
+        rgb("radiance", light.radiance);
+        break;
+    }
+    case Kind::sphere:
+        light.center = object.require("center").vec3();
+        light.radius = read_positive(object.require("radius"));
+        rgb("radiance", light.radiance);
+        break;
+    }
+    object.done();
+    return light;
+}
+
+SurfaceDescription read_surface(const JsonValue& json)
+{
+    JsonObject object = json.object();
+    SurfaceDescription surface{object.require("mesh").path(), read_material(object.require("material")), json.place()};
+    object.done();
+    return surface;
+}
+
+GrainTypeDescription read_grain_type(const std::string& name, const JsonValue& json)
+{
+    JsonObject object = json.object();
+    GrainTypeDescription type;
+    type.name = name;
+    type.place = json.place();
+    const JsonValue shape = object.require("shape");
+    if (shape.is_object()) {
+        JsonObject mesh = shape.object();
+        type.mesh = mesh.require("mesh").path();
+        mesh.done();
+    } else if (shape.string() != "sphere") {
+        shape.fail("\"sphere\" or {\"mesh\": FILE}", "this version has no other shapes built in");
+    }
+    type.material = read_material(object.require("material"));
+    object.done();
+    return type;
+}
+
+/// The dump's type numbers are the keys.
+int32_t read_type_number(const std::string& key, const JsonValue& where)
+{
+    size_t used = 0;
+    int number = 0;
+    try {
+        number = std::stoi(key, &used);
+    } catch (const std::exception&) {
+        used = 0;
+    }
+    if (used == 0 || used != key.size()) throw InputError(where.place(), "the key '" + key + "'", "a type number of the dump, e.g. \"1\"");
+    return number;
+}
+
+void check_type_name(const std::string& name, const std::vector<GrainTypeDescription>& types, const JsonValue& where)
+{
+    std::vector<std::string> names;
+    for (const auto& type : types) names.push_back(type.name);
+    if (std::find(names.begin(), names.end(), name) != names.end()) return;
+    const std::string nearest = did_you_mean(name, names);
+    where.fail(fmt::format("a grain type of the scene: {}", fmt::join(names, ", ")), nearest.empty() ? "" : nearest.substr(2));
+}
+
+AssemblyDescription read_assembly(const JsonValue& json, const std::vector<GrainTypeDescription>& types)
+{
+    JsonObject object = json.object();
+    AssemblyDescription assembly;
+    assembly.place = json.place();
+    if (const auto dump = object.find("dump")) {
+        const std::filesystem::path pattern = dump->path();
+        assembly.dump = pattern.string();
+        if (const auto map = object.find("types")) {
+            JsonObject entries = map->object();
+            for (const std::string& key : entries.take_keys()) {
+                const JsonValue name = entries.require(key);
+                check_type_name(name.string(), types, name);
+                assembly.types[read_type_number(key, *map)] = name.string();
+            }
+        } else if (types.size() != 1) {
+            json.fail("the key 'types', which maps the dump's types to grain types", "e.g. \"types\": {\"1\": \"" + types[0].name + "\"}");
+        }
+        if (const auto radius = object.find("radius")) {
+            if (radius->is_number()) {
+                assembly.radius = read_positive(*radius);
+            } else {
+                JsonObject entries = radius->object();
+                for (const std::string& key : entries.take_keys()) {
+                    assembly.radius_of_type[read_type_number(key, *radius)] = read_positive(entries.require(key));
+                }
+            }
+        }
+    } else if (const auto spheres = object.find("spheres")) {
+        for (const JsonValue& item : spheres->array()) {
+            JsonObject entry = item.object();
+            AssemblyDescription::Sphere sphere{entry.require("center").vec3(), entry.require("radius").number(0), ""};
+            if (const auto type = entry.find("type")) {
+                sphere.type = type->string();
+                check_type_name(sphere.type, types, *type);
+            } else if (types.size() != 1) {
+                item.fail("the key 'type', as there are several grain types");
+            }
+            entry.done();
+            assembly.spheres.push_back(sphere);
+        }
+    } else if (object.find("fill")) {
+        json.fail("\"dump\" or \"spheres\"", "this version does not fill meshes yet");
+    } else {
+        json.fail("an object with \"dump\" or \"spheres\"");
+    }
+    object.done();
+    return assembly;
+}
+
+void read_grains(const JsonValue& json, SceneDescription& scene)
+{
+    JsonObject object = json.object();
+    JsonObject types = object.require("types").object();
+    for (const std::string& name : types.take_keys()) scene.types.push_back(read_grain_type(name, types.require(name)));
+    if (scene.types.empty()) types.value().fail("at least one grain type");
+    scene.assembly = read_assembly(object.require("assembly"), scene.types);
+    if (const auto mixture = object.find("mixture")) {
+        JsonObject kind = mixture->object();
+        kind.require("kind").choice({"explicit"});
+        kind.done();
+    }
+    object.done();
+}
+
+} // namespace
+
+SceneDescription read_scene(const JsonDocument& document, const std::filesystem::path& file)
+{
+    SceneDescription scene;
+    scene.file = file;
+    scene.canonical = document.canonical();
+    JsonObject object = document.root().object();
+    if (const auto schema = object.find("$schema")) schema->string();
+    scene.camera = read_camera(object.require("camera"));
+    if (const auto film = object.find("film")) scene.film = read_film(*film);
+    if (const auto lights = object.find("lights")) {
+        for (const JsonValue& item : lights->array()) scene.lights.push_back(read_light(item));
+    }
+    if (const auto surfaces = object.find("surfaces")) {
+        for (const JsonValue& item : surfaces->array()) scene.surfaces.push_back(read_surface(item));
+    }
+    if (const auto grains = object.find("grains")) read_grains(*grains, scene);
+    if (const auto medium = object.find("medium")) {
+        if (!medium->array().empty()) medium->fail("no medium", "this version renders grains and surfaces only");
+    }
+    if (const auto integrator = object.find("integrator")) {
+        JsonObject options = integrator->object();
+        if (const auto kind = options.find("kind")) {
+            const std::vector<std::string> kinds{"auto", "ept"};
+            scene.integrator = kinds[kind->choice(kinds)];
+        }
+        if (const auto accuracy = options.find("accuracy")) accuracy->choice({"reference", "high", "standard", "draft"});
+        if (const auto depth = options.find("max_depth")) scene.max_depth = static_cast<uint32_t>(depth->integer(1, 1000000000));
+        options.done();
+    }
+    object.done();
+    return scene;
+}
+
+} // namespace scree

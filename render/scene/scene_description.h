@@ -1,0 +1,91 @@
+#pragma once
+
+#include "render/film/filter.h"
+#include "render/materials/material.h"
+#include "render/scene/camera.h"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace scree {
+
+class JsonDocument;
+
+enum class Aov : uint8_t { albedo, normal, depth, type, id, variance, samples };
+inline const std::vector<std::string> aov_names{"albedo", "normal", "depth", "type", "id", "variance", "samples"};
+
+struct FilmDescription {
+    int width = 640, height = 480;
+    Filter filter;
+    std::vector<Aov> aov;
+};
+
+/// A light as the scene file has it, in the scene's unit.
+struct LightDescription {
+    enum class Kind : uint8_t { constant, environment, distant, rectangle, sphere } kind = Kind::constant;
+    C3f radiance{1};               ///< constant, rectangle, sphere
+    std::filesystem::path file;    ///< environment
+    C3f scale{1};                  ///< environment
+    V3d up{0, 0, 1};               ///< environment
+    V3d direction{0, 0, -1};       ///< distant: in which the light travels
+    C3f irradiance{1};             ///< distant: on a plane facing it
+    double angle = 0.53;           ///< distant: angular diameter, degrees
+    V3d corner{0}, edge1{0}, edge2{0};
+    V3d center{0};
+    double radius = 0;
+    std::string place;             ///< in the scene file, for messages
+};
+
+struct SurfaceDescription {
+    std::filesystem::path mesh;
+    Material material;             ///< absorption per unit of length of the scene
+    std::string place;
+};
+
+struct GrainTypeDescription {
+    std::string name;
+    std::optional<std::filesystem::path> mesh; ///< none: a sphere
+    Material material;
+    std::string place;
+};
+
+/// Where the grains come from: a dump, or spheres written out in the scene.
+struct AssemblyDescription {
+    struct Sphere {
+        V3d center;
+        double radius;
+        std::string type; ///< name of a grain type; empty: the only one
+    };
+    std::string dump;                               ///< file, glob or printf pattern; empty when spheres are given
+    std::map<int32_t, std::string> types;           ///< the dump's type number -> name of a grain type
+    std::optional<double> radius;                   ///< for dumps without a radius column
+    std::map<int32_t, double> radius_of_type;
+    std::vector<Sphere> spheres;
+    std::string place;
+};
+
+/// A scene file, read and checked, with paths made absolute; nothing it names has been opened yet.
+struct SceneDescription {
+    std::filesystem::path file;
+    std::string canonical;       ///< the JSON without layout: what the scene hash covers
+    CameraDescription camera;
+    FilmDescription film;
+    std::vector<LightDescription> lights;
+    std::vector<SurfaceDescription> surfaces;
+    std::vector<GrainTypeDescription> types; ///< in order of name
+    std::optional<AssemblyDescription> assembly;
+    std::string integrator = "auto";
+    uint32_t max_depth = 0;
+};
+
+/// Checks and takes over every key. Throws InputError naming file and JSON path.
+SceneDescription read_scene(const JsonDocument& document, const std::filesystem::path& file);
+
+/// A material from its JSON object (render/scene/scene.schema.json says what it may hold).
+class JsonValue;
+Material read_material(const JsonValue& json);
+
+} // namespace scree

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "render/scene/world.h"
+
+#include <cstdint>
+#include <memory>
+
+struct RTCSceneTy;
+
+namespace scree {
+
+enum class HitKind : uint8_t { none, grain, surface, light };
+
+/// What a ray met, or what it starts on: a grain (with the triangle of its mesh), a surface's triangle, or a light.
+struct Place {
+    HitKind kind = HitKind::none;
+    uint32_t index = 0;               ///< grain, surface or light
+    uint32_t triangle = no_triangle;  ///< of a mesh
+};
+
+struct Hit {
+    Place place;
+    double t = 0;
+    V3d point{0};
+    V3d normal{0, 0, 1}; ///< unit, geometric, outwards
+};
+
+/// Finds what a ray meets among bounding spheres, the exemplars inside them, surfaces and lights, by Embree.
+///
+/// Embree proposes in float; spheres are decided in double, and what a ray starts on is known by name and not by an
+/// offset. Grains may overlap: outside all grains only faces that the ray enters count, inside one only that grain
+/// (and surfaces that cut through it). Rays are (o, d): unit d, render coordinates.
+class Tracer {
+public:
+    /// Builds the acceleration structures of `world`, which must outlive the tracer.
+    Tracer(std::shared_ptr<const EmbreeDevice> device, const World& world);
+    ~Tracer();
+
+    /// Nearest thing from outside all grains; kind none if there is none.
+    Hit intersect(const V3d& o, const V3d& d, const Place& from) const;
+    /// Nearest way out of `grain` from inside it, or a surface standing in it. Kind none: lost to rounding, treat as outside.
+    Hit intersect_inside(uint32_t grain, const V3d& o, const V3d& d, const Place& from) const;
+    /// Whether anything stands between o and o + tmax d; `target` is the light aimed at, which does not count.
+    bool occluded(const V3d& o, const V3d& d, double tmax, const Place& from, uint32_t target) const;
+
+    /// The scene that `intersect` asks, as Embree's handle: for benchmarks against Embree alone.
+    RTCSceneTy* embree_scene() const;
+    /// Radius around the render origin of everything but infinite lights.
+    double scene_radius() const;
+
+    struct Impl; ///< tracer_impl.h
+
+private:
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace scree

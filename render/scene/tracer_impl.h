@@ -1,0 +1,71 @@
+#pragma once
+
+// Private to the tracer: the only header of ours that sees Embree.
+
+#include "render/scene/tracer.h"
+
+#include <embree3/rtcore.h>
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace scree {
+
+inline constexpr uint32_t no_light = std::numeric_limits<uint32_t>::max();
+
+struct Tracer::Impl {
+    // Geometry ids in the outer scene; surfaces follow from first_surface, then lights, a geometry each.
+    static constexpr uint32_t analytic_id = 0, mesh_id = 1, first_surface = 2;
+
+    std::shared_ptr<const EmbreeDevice> device;
+    const World& world;
+    RTCScene scene = nullptr;           // everything
+    RTCScene surface_scene = nullptr;   // surfaces alone, for rays inside grains; null when no ray can be inside one
+    uint32_t first_light = first_surface;
+    std::vector<uint32_t> light_of_id;  // geometry id - first_light -> light
+    bool mesh_grains = false;
+    double radius = 0;
+
+    Impl(std::shared_ptr<const EmbreeDevice> device, const World& world);
+    ~Impl();
+
+    bool is_surface(uint32_t id) const { return id >= first_surface && id < first_light; }
+    uint32_t light_of(uint32_t id) const { return light_of_id[id - first_light]; }
+
+private:
+    void attach_grains(uint32_t id, size_t begin, size_t count);
+    RTCGeometry make_surface(const Surface& surface) const;
+    RTCGeometry make_light(const Light& light) const;
+    void attach(RTCScene to, RTCGeometry geometry, uint32_t id) const;
+};
+
+/// What a ray carries through Embree to the filters, and the nearest thing they have accepted.
+struct TracerQuery {
+    RTCIntersectContext context; // first: Embree hands it back
+    const Tracer::Impl* tracer;
+    V3d o, d;
+    double advanced = 0;         // Embree's ray starts at o + advanced d
+    Place from;
+    uint32_t target = no_light;  // a light that does not count
+    double best = std::numeric_limits<double>::infinity(); // from o; nothing farther is accepted
+    Place place;                 // of the nearest
+    float u = 0, v = 0;          // on its triangle
+
+    TracerQuery(const Tracer::Impl& impl, const V3d& o_, const V3d& d_, const Place& from_)
+        : tracer(&impl), o(o_), d(d_), from(from_)
+    {
+        rtcInitIntersectContext(&context);
+    }
+
+    /// Traces the mesh of a grain from o, outside; accepts a hit nearer than best.
+    bool offer_mesh(uint32_t grain);
+    /// Offers every mesh grain whose bounding sphere holds o.
+    void offer_containing();
+};
+
+/// Embree filter of every geometry, for nearest and for any hit: lets a candidate through only when it is really met.
+void tracer_filter(const RTCFilterFunctionNArguments* args);
+
+} // namespace scree

@@ -1,0 +1,372 @@
+#include "render/scene/world_builder.h"
+
+#include "ingest/support/error.h"
+#include "ingest/triangle_mesh.h"
+#include "mixtures/explicit_mixture.h"
+#include "mixtures/hash.h"
+#include "render/lights/environment_file.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstring>
+#include <map>
+#include <numeric>
+#include <optional>
+
+namespace scree {
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Hash of bytes, eight at a time.
+uint64_t hash_bytes(const void* data, size_t bytes, uint64_t seed)
+{
+    const auto* p = static_cast<const unsigned char*>(data);
+    uint64_t hash = mix64(seed + bytes);
+    for (size_t i = 0; i < bytes; i += 8) {
+        uint64_t word = 0;
+        std::memcpy(&word, p + i, std::min<size_t>(8, bytes - i));
+        hash = mix64(hash ^ word) + 0x9e3779b97f4a7c15ull;
+    }
+    return hash;
+}
+
+template <class T>
+uint64_t hash_vector(const std::vector<T>& v, uint64_t seed)
+{
+    return hash_bytes(v.data(), v.size() * sizeof(T), seed);
+}
+
+uint64_t hash_mesh(const TriangleMesh& mesh, uint64_t seed)
+{
+    return hash_vector(mesh.triangles, hash_vector(mesh.positions, seed));
+}
+
+/// Bounds of points, and through `space` the middle and size of the scene in powers of two.
+struct Bounds {
+    V3d lo{std::numeric_limits<double>::infinity()}, hi{-std::numeric_limits<double>::infinity()};
+
+    void extend(const V3d& p, double r = 0)
+    {
+        for (int i = 0; i < 3; ++i) {
+            lo[i] = std::min(lo[i], p[i] - r);
+            hi[i] = std::max(hi[i], p[i] + r);
+        }
+    }
+    bool empty() const { return !(lo.x <= hi.x); }
+    RenderSpace space() const
+    {
+        RenderSpace space;
+        if (empty()) return space;
+        space.origin = 0.5 * (lo + hi);
+        const V3d half = 0.5 * (hi - lo);
+        const double size = std::max({half.x, half.y, half.z});
+        if (size > 0) std::frexp(size, &space.exponent);
+        return space;
+    }
+};
+
+/// The scene's spheres, whatever they come from, with the grain type of each.
+struct Spheres {
+    ParticleFrame frame;
+    std::unique_ptr<ExplicitMixture> mixture;
+};
+
+} // namespace
+
+struct WorldBuilder::Impl {
+    SceneDescription scene;
+    std::shared_ptr<EmbreeDevice> device = std::make_shared<EmbreeDevice>();
+    std::optional<DumpSeries> series;
+    std::map<std::string, std::pair<std::shared_ptr<const Exemplar>, uint64_t>> exemplars; // by grain type, with the mesh's hash
+    std::vector<TriangleMesh> surfaces;
+    std::map<size_t, std::shared_ptr<const EnvironmentMap>> maps; // by light
+    std::vector<PartReport> parts;
+    std::vector<std::string> frame_warnings;
+    uint64_t hash = 0;
+
+    Spheres read_spheres(size_t frame, const Progress& progress);
+    GrainStore make_grains(Spheres spheres, World& world);
+    void make_types(const std::vector<uint8_t>& used, World& world);
+    void make_surfaces(World& world);
+    LightSet make_lights(const World& world);
+    Light make_light(size_t index, const RenderSpace& space);
+    uint32_t type_index(const std::string& name) const;
+};
+
+uint32_t WorldBuilder::Impl::type_index(const std::string& name) const
+{
+    for (uint32_t i = 0; i < scene.types.size(); ++i) {
+        if (scene.types[i].name == name) return i;
+    }
+    return 0; // an unnamed type: the only one
+}
+
+Spheres WorldBuilder::Impl::read_spheres(size_t frame, const Progress& progress)
+{
+    Spheres spheres;
+    const AssemblyDescription& assembly = *scene.assembly;
+    if (series) {
+        spheres.frame = series->read(frame, {assembly.radius, assembly.radius_of_type}, progress);
+        std::map<int32_t, uint32_t> types;
+        for (const auto& [number, name] : assembly.types) types[number] = type_index(name);
+        if (types.empty()) {
+            for (const int32_t type : spheres.frame.type) types[type] = 0;
+        }
+        spheres.mixture = mixture_from_frame(spheres.frame, types, assembly.place + "/types");
+        return spheres;
+    }
+    std::vector<uint32_t> types;
+    for (const auto& sphere : assembly.spheres) {
+        spheres.frame.id.push_back(types.size());
+        spheres.frame.position.push_back(sphere.center);
+        spheres.frame.radius.push_back(static_cast<float>(sphere.radius));
+        types.push_back(type_index(sphere.type));
+    }
+    spheres.mixture = std::make_unique<ExplicitMixture>(types);
+    return spheres;
+}
+
+GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, World& world)
+{
+    const ParticleFrame& frame = spheres.frame;
+    Bounds bounds;
+    for (size_t i = 0; i < frame.size(); ++i) bounds.extend(frame.position[i]);
+    const V3d middle = bounds.space().origin;
+    if (frame.size() > 0) {
+        // The size counts radii, the origin does not: it must not move when a grain grows.
+        for (size_t i = 0; i < frame.size(); ++i) bounds.extend(frame.position[i], frame.radius[i]);
+        world.space = bounds.space();
+        world.space.origin = middle;
+    }
+
+    std::vector<uint8_t> used(scene.types.size(), 0);
+    for (size_t i = 0; i < frame.size(); ++i) used[spheres.mixture->type(i, {})] = 1;
+    make_types(used, world);
+
+    GrainStore grains;
+    uint64_t without_size = 0;
+    const auto add = [&](size_t i) {
+        const uint32_t type = spheres.mixture->type(i, {});
+        const V3d p = world.space.point(frame.position[i]);
+        const auto r = static_cast<float>(world.space.length(frame.radius[i]));
+        if (!(r >= std::numeric_limits<float>::min())) { // also what underflows: too small for any ray
+            ++without_size;
+            return;
+        }
+        grains.spheres.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), r});
+        grains.type_codes.push_back(static_cast<uint8_t>(type));
+        grains.ids.push_back(frame.id[i]);
+        if (!frame.orientation.empty() && world.types[type].exemplar) grains.orientation.push_back(frame.orientation[i]);
+    };
+    grains.spheres.reserve(frame.size() + 1);
+    grains.type_codes.reserve(frame.size());
+    grains.ids.reserve(frame.size());
+    for (const bool meshes : {false, true}) {
+        for (size_t i = 0; i < frame.size(); ++i) {
+            if ((world.types[spheres.mixture->type(i, {})].exemplar != nullptr) == meshes) add(i);
+        }
+        if (!meshes) grains.analytic_count = grains.size();
+    }
+    grains.spheres.push_back({});
+    bool consecutive = true;
+    for (size_t i = 1; i < grains.ids.size() && consecutive; ++i) consecutive = grains.ids[i] == grains.ids[0] + i;
+    if (consecutive) {
+        grains.first_id = grains.ids.empty() ? 0 : grains.ids[0];
+        grains.ids = {};
+    }
+    if (without_size > 0) frame_warnings.push_back(fmt::format("{} grains of radius 0 are left out", without_size));
+    hash = hash_vector(grains.type_codes, hash_vector(frame.radius, hash_vector(frame.position, hash_vector(frame.id, hash))));
+    return grains;
+}
+
+void WorldBuilder::Impl::make_types(const std::vector<uint8_t>& used, World& world)
+{
+    for (size_t i = 0; i < scene.types.size(); ++i) {
+        const GrainTypeDescription& type = scene.types[i];
+        GrainType made{type.name, type.material, nullptr};
+        made.material.absorption *= static_cast<float>(world.space.world_length(1));
+        const std::string part = "exemplar '" + type.name + "'";
+        if (!used[i]) {
+            parts.push_back({part, false, "no grain has this type"});
+        } else if (!type.mesh) {
+            parts.push_back({part, false, "its shape is the bounding sphere itself"});
+        } else {
+            auto& [exemplar, mesh_hash] = exemplars[type.name];
+            const auto start = std::chrono::steady_clock::now();
+            if (!exemplar) {
+                const TriangleMesh mesh = read_mesh(*type.mesh);
+                auto built = std::make_shared<Exemplar>(*device, mesh, type.mesh->string());
+                if (type.material.transmits() && !built->closed()) {
+                    throw InputError(type.mesh->string(), "an open or inconsistently oriented mesh",
+                                     "a closed mesh, as the material of '" + type.name + "' is a dielectric",
+                                     "close it, or give the type an opaque material");
+                }
+                exemplar = std::move(built);
+                mesh_hash = hash_mesh(mesh, 1);
+            }
+            made.exemplar = exemplar;
+            hash = mix64(hash ^ mesh_hash);
+            parts.push_back({part, true, fmt::format("{} triangles", exemplar->triangle_count()), seconds_since(start),
+                             exemplar->bytes()});
+        }
+        world.types.push_back(std::move(made));
+    }
+}
+
+void WorldBuilder::Impl::make_surfaces(World& world)
+{
+    const auto start = std::chrono::steady_clock::now();
+    if (surfaces.empty()) {
+        for (const auto& surface : scene.surfaces) surfaces.push_back(read_mesh(surface.mesh));
+    }
+    if (!scene.assembly || world.grains.size() == 0) {
+        Bounds bounds;
+        for (const auto& mesh : surfaces) {
+            for (const V3d& p : mesh.positions) bounds.extend(p);
+        }
+        world.space = bounds.space();
+    }
+    uint64_t triangles = 0, bytes = 0;
+    for (size_t i = 0; i < surfaces.size(); ++i) {
+        Surface surface;
+        surface.name = scene.surfaces[i].mesh.filename().string();
+        surface.material = scene.surfaces[i].material;
+        surface.material.absorption *= static_cast<float>(world.space.world_length(1));
+        surface.triangles = surfaces[i].triangles;
+        surface.positions.reserve(surfaces[i].positions.size());
+        for (const V3d& p : surfaces[i].positions) surface.positions.emplace_back(world.space.point(p));
+        triangles += surface.triangles.size();
+        bytes += surface.triangles.size() * sizeof(surface.triangles[0]) + surface.positions.size() * sizeof(V3f);
+        hash = hash_mesh(surfaces[i], hash);
+        world.surfaces.push_back(std::move(surface));
+    }
+    if (surfaces.empty()) parts.push_back({"surfaces", false, "the scene has none"});
+    else parts.push_back({"surfaces", true, fmt::format("{} meshes, {} triangles", surfaces.size(), triangles), seconds_since(start), bytes});
+}
+
+Light WorldBuilder::Impl::make_light(size_t index, const RenderSpace& space)
+{
+    using Kind = LightDescription::Kind;
+    const LightDescription& description = scene.lights[index];
+    Light light;
+    light.kind = static_cast<LightKind>(description.kind);
+    light.radiance = description.radiance;
+    switch (description.kind) {
+    case Kind::constant: break;
+    case Kind::environment: {
+        auto& map = maps[index];
+        if (!map) {
+            const auto start = std::chrono::steady_clock::now();
+            map = std::make_shared<EnvironmentMap>(read_environment(description.file, description.up, description.scale));
+            parts.push_back({"environment map", true, description.file.filename().string(), seconds_since(start), 0});
+        }
+        light.map = map;
+        break;
+    }
+    case Kind::distant: {
+        light.direction = -description.direction.normalized();
+        const double half = description.angle * pi / 360, sine = std::sin(half / 2);
+        light.one_minus_cos = 2 * sine * sine;
+        light.radiance = description.irradiance;
+        // Irradiance of a disc of constant radiance overhead: L pi sin^2.
+        if (half > 0) light.radiance *= static_cast<float>(1 / (pi * std::sin(half) * std::sin(half)));
+        break;
+    }
+    case Kind::rectangle: {
+        light.corner = space.point(description.corner);
+        light.edge1 = space.vector(description.edge1);
+        light.edge2 = space.vector(description.edge2);
+        const V3d cross = light.edge1.cross(light.edge2);
+        light.area = cross.length();
+        light.normal = cross.normalized();
+        break;
+    }
+    case Kind::sphere:
+        light.center = space.point(description.center);
+        light.radius = space.length(description.radius);
+        light.area = 4 * pi * light.radius * light.radius;
+        break;
+    }
+    return light;
+}
+
+LightSet WorldBuilder::Impl::make_lights(const World& world)
+{
+    std::vector<Light> lights;
+    bool point = false, glass = false;
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        lights.push_back(make_light(i, world.space));
+        point |= lights.back().kind == LightKind::distant && lights.back().one_minus_cos == 0;
+    }
+    for (const GrainType& type : world.types) glass |= type.material.transmits() || type.material.is_delta();
+    if (point && glass) {
+        frame_warnings.push_back("a distant light of angle 0 cannot be found by paths through glass: its caustics are missing");
+    }
+    double radius2 = world.grains.size() > 0 ? 1.0 : 0.0;
+    for (const Surface& surface : world.surfaces) {
+        for (const V3f& p : surface.positions) radius2 = std::max(radius2, V3d(p).length2());
+    }
+    return LightSet(std::move(lights), std::sqrt(radius2));
+}
+
+WorldBuilder::WorldBuilder(SceneDescription scene) : impl_(std::make_unique<Impl>())
+{
+    impl_->scene = std::move(scene);
+    if (impl_->scene.types.size() > 256) {
+        throw InputError(impl_->scene.file.string() + ": /grains/types", fmt::format("{} grain types", impl_->scene.types.size()),
+                         "at most 256");
+    }
+    const auto& assembly = impl_->scene.assembly;
+    if (assembly && !assembly->dump.empty()) impl_->series = DumpSeries::open(assembly->dump);
+}
+
+WorldBuilder::~WorldBuilder() = default;
+
+const SceneDescription& WorldBuilder::scene() const { return impl_->scene; }
+size_t WorldBuilder::frame_count() const { return impl_->series ? impl_->series->frame_count() : 1; }
+const std::vector<PartReport>& WorldBuilder::parts() const { return impl_->parts; }
+uint64_t WorldBuilder::scene_hash() const { return impl_->hash; }
+std::shared_ptr<const EmbreeDevice> WorldBuilder::device() const { return impl_->device; }
+
+std::string WorldBuilder::frame_name(size_t frame) const
+{
+    if (!impl_->series) return "";
+    return fmt::format("{} step {}", impl_->series->file(frame).filename().string(), impl_->series->step(frame));
+}
+
+std::vector<std::string> WorldBuilder::warnings() const
+{
+    std::vector<std::string> all = impl_->frame_warnings;
+    if (impl_->series) all.insert(all.begin(), impl_->series->warnings().begin(), impl_->series->warnings().end());
+    return all;
+}
+
+std::shared_ptr<const World> WorldBuilder::build(size_t frame, const Progress& progress)
+{
+    impl_->parts.clear();
+    impl_->frame_warnings.clear();
+    impl_->hash = hash_bytes(impl_->scene.canonical.data(), impl_->scene.canonical.size(), frame);
+    auto world = std::make_shared<World>();
+    if (impl_->scene.assembly) {
+        const auto start = std::chrono::steady_clock::now();
+        Spheres spheres = impl_->read_spheres(frame, progress);
+        const uint64_t read = spheres.frame.size();
+        const double read_seconds = seconds_since(start);
+        world->grains = impl_->make_grains(std::move(spheres), *world);
+        impl_->parts.push_back({"grains", true, fmt::format("{} of {} spheres read", world->grains.size(), read), read_seconds,
+                                world->grains.bytes()});
+    } else {
+        impl_->parts.push_back({"grains", false, "the scene has none"});
+    }
+    impl_->make_surfaces(*world);
+    world->lights = impl_->make_lights(*world);
+    return world;
+}
+
+} // namespace scree

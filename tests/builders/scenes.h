@@ -1,0 +1,53 @@
+#pragma once
+
+#include "ingest/triangle_mesh.h"
+#include "render/scene/tracer.h"
+#include "render/scene/world.h"
+#include "tests/builders/packings.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace scree {
+
+/// A world put together by hand, and the tracer over it: what tests and benchmarks render without a scene file.
+class TestScene {
+public:
+    TestScene();
+
+    /// A grain type; the shape is the bounding sphere, or a mesh. Returns its number.
+    uint32_t add_type(const Material& material);
+    uint32_t add_type(const Material& material, const TriangleMesh& mesh);
+    void add_grain(const V3d& center, double radius, uint32_t type);
+    void add_grains(const std::vector<PackedSphere>& spheres, uint32_t type);
+    void add_surface(const TriangleMesh& mesh, const Material& material);
+    void add_light(const Light& light);
+    void add_constant_light(float radiance);
+
+    /// Builds; nothing may be added afterwards. Coordinates are scaled by a power of two so that the grains fill -1..1.
+    void build();
+
+    const World& world() const { return world_; }
+    const Tracer& tracer() const { return *tracer_; }
+    const EmbreeDevice& device() const { return *device_; }
+    RenderSpace space() const { return world_.space; }
+
+private:
+    struct Grain {
+        V3d center;
+        double radius;
+        uint32_t type;
+    };
+    std::shared_ptr<EmbreeDevice> device_;
+    World world_;
+    std::vector<Grain> grains_;
+    std::vector<std::pair<TriangleMesh, Material>> surfaces_;
+    std::vector<Light> lights_;
+    std::unique_ptr<Tracer> tracer_;
+};
+
+Material lambert(float reflectance);
+Material dielectric(double ior, double alpha = 0);
+
+} // namespace scree
