@@ -35,10 +35,19 @@ public:
     size_t frame_count() const;
     int64_t step(size_t frame) const;
     uint64_t particle_count(size_t frame) const;
+    /// The time that `dump_modify time yes` writes.
+    std::optional<double> time(size_t frame) const;
+    /// The names of the frame's columns, as the file spells them.
+    const std::vector<std::string>& columns(size_t frame) const;
+    /// Whether the frame has a column of radii or diameters; without one, `read` needs them in its options.
+    bool has_radius(size_t frame) const;
+    /// The names of types 1, 2, ... where the dump tells types by name (`element`, `typelabel`) only; else empty.
+    const std::vector<std::string>& type_names() const;
     /// File that holds the frame.
     const std::filesystem::path& file(size_t frame) const;
 
-    /// Parses one frame, sorted by id. Throws InputError naming file, line, found and expected.
+    /// Parses one frame, sorted by id. Reading frames in their order passes each file once; may be called from
+    /// several threads. Throws InputError naming file, line, found and expected.
     ParticleFrame read(size_t frame, const DumpReadOptions& options = {}, const Progress& progress = {}) const;
 
     const std::vector<std::string>& warnings() const;

@@ -16,7 +16,8 @@ struct TriangleMesh {
 };
 
 /// Reads OBJ, PLY, STL or OFF (by extension; text or binary); polygons are triangulated, exact duplicates of
-/// vertices are merged (STL), faces of no area are dropped. Throws InputError naming the file and the defect.
+/// vertices are merged (STL always, other formats where that closes the surface, as at the seams of textures),
+/// faces of no area are dropped. Throws InputError naming the file (text: and the line) and the defect.
 TriangleMesh read_mesh(const std::filesystem::path& path);
 
 /// What `scree info` says of a mesh.

@@ -1,3 +1,4 @@
+#include "ingest/convert_command.h"
 #include "ingest/info_command.h"
 #include "ingest/support/error.h"
 #include "render/render_command.h"
@@ -12,6 +13,7 @@ int main(int argc, char** argv)
     app.require_subcommand(1);
     scree::add_render_command(app);
     scree::add_info_command(app);
+    scree::add_convert_command(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::RuntimeError& status) {

@@ -2,6 +2,7 @@
 
 #include "ingest/support/error.h"
 #include "render/grains/enclosing_sphere.h"
+#include "render/grains/triangle.h"
 
 #include <embree3/rtcore.h>
 
@@ -12,6 +13,8 @@ namespace {
 /// What a ray inside an exemplar carries to the filter; Embree hands the context back.
 struct Query {
     RTCIntersectContext context;
+    const Exemplar* exemplar;
+    V3d o;
     uint32_t skip;
     float wanted; // sign of Ng . d that is let through; 0: both
 };
@@ -23,6 +26,10 @@ void keep_wanted_faces(const RTCFilterFunctionNArguments* args)
     const auto* hit = reinterpret_cast<const RTCHit*>(args->hit);
     const float side = hit->Ng_x * ray->dir_x + hit->Ng_y * ray->dir_y + hit->Ng_z * ray->dir_z;
     if (hit->primID == query->skip || side * query->wanted < 0) args->valid[0] = 0;
+    // With a wanted side the neighbours of `skip` face the wrong way; without one they must be told by their plane.
+    else if (query->wanted == 0 && query->skip != no_triangle && starts_on_plane(query->exemplar->corners(hit->primID), query->o)) {
+        args->valid[0] = 0;
+    }
 }
 
 } // namespace
@@ -79,8 +86,7 @@ V3d Exemplar::point(const ExemplarHit& hit) const
 
 V3d Exemplar::normal(uint32_t triangle) const
 {
-    const auto [a, b, c] = corners(triangle);
-    return (b - a).cross(c - a).normalized();
+    return unit_normal(corners(triangle));
 }
 
 uint64_t Exemplar::bytes() const
@@ -100,6 +106,8 @@ bool Exemplar::intersect(const V3d& o, const V3d& d, double tmax, Facing facing,
     }
     Query query;
     rtcInitIntersectContext(&query.context);
+    query.exemplar = this;
+    query.o = o;
     query.skip = skip;
     query.wanted = !closed_ ? 0.0f : facing == Facing::entering ? -1.0f : 1.0f;
 

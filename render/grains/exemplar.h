@@ -45,14 +45,13 @@ public:
     V3d point(const ExemplarHit& hit) const;
     /// Unit geometric normal, outwards for a closed mesh.
     V3d normal(uint32_t triangle) const;
+    std::array<V3d, 3> corners(uint32_t triangle) const;
 
     bool closed() const { return closed_; }
     uint64_t triangle_count() const { return triangles_.size(); }
     uint64_t bytes() const;
 
 private:
-    std::array<V3d, 3> corners(uint32_t triangle) const;
-
     std::vector<V3f> positions_;
     std::vector<std::array<uint32_t, 3>> triangles_;
     bool closed_ = false;

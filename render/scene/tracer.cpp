@@ -1,3 +1,4 @@
+#include "render/grains/triangle.h"
 #include "render/scene/tracer_impl.h"
 
 #include <cmath>
@@ -58,8 +59,6 @@ std::array<V3d, 3> corners(const Surface& surface, uint32_t triangle)
     const auto& t = surface.triangles[triangle];
     return {V3d(surface.positions[t[0]]), V3d(surface.positions[t[1]]), V3d(surface.positions[t[2]])};
 }
-
-V3d unit_normal(const std::array<V3d, 3>& c) { return (c[1] - c[0]).cross(c[2] - c[0]).normalized(); }
 
 /// Where Embree's ray starts: near o, but off the surface triangle it lies on by what rounding to float may move it.
 V3d float_start(const World& world, const V3d& o, const V3d& d, const Place& from)
@@ -180,6 +179,8 @@ void tracer_filter(const RTCFilterFunctionNArguments* args)
     } else if (tracer.is_surface(hit->geomID)) {
         place = {HitKind::surface, hit->geomID - Tracer::Impl::first_surface, hit->primID};
         if (query.from.kind == HitKind::surface && query.from.index == place.index && query.from.triangle == place.triangle) return;
+        const auto c = corners(world.surfaces[place.index], place.triangle);
+        if (starts_on_plane(c, query.o)) return; // a neighbour of what the ray leaves
         t = ray->tfar + query.advanced;
     } else {
         place = {HitKind::light, tracer.light_of(hit->geomID)};

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <Imath/ImathVec.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace scree {
+
+/// Finds the spheres near a place among spheres of very different sizes.
+///
+/// A level for every factor of two of the radius; a level is a grid of cells as wide as its largest diameter, kept
+/// as a hash table of its filled cells. So cost and memory depend neither on the extent nor on the ratio of radii.
+class SphereGrid {
+public:
+    struct Entry {
+        Imath::V3d position{0};
+        uint64_t cell = 0;  ///< key of the cell
+        uint64_t index = 0; ///< of the sphere
+        float radius = 0;
+    };
+
+    /// All of one length. The grid keeps copies.
+    SphereGrid(std::span<const Imath::V3d> positions, std::span<const float> radii);
+
+    /// Levels go from small spheres to large ones; spheres without radius have the first for themselves.
+    size_t level_count() const { return levels_.size(); }
+    /// Largest radius of the level.
+    double level_radius(size_t level) const { return levels_[level].radius; }
+    /// The level's spheres, neighbours near each other.
+    std::span<const Entry> entries(size_t level) const { return levels_[level].entries; }
+
+    /// Calls visit(entry) for every sphere of the level whose centre is within `reach` along each axis (at most
+    /// twice the level's radius, for speed), and for some others; stops and returns false when visit returns false.
+    template <class Visit> bool visit_near(size_t level, const Imath::V3d& place, double reach, const Visit& visit) const
+    {
+        const Level& grid = levels_[level];
+        for (int axis = 0; axis < 3; ++axis)
+            if (place[axis] + reach < grid.lo[axis] || place[axis] - reach > grid.hi[axis]) return true;
+        uint64_t lo[3], hi[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            lo[axis] = grid.coordinate(place[axis] - reach, axis);
+            hi[axis] = grid.coordinate(place[axis] + reach, axis);
+        }
+        const uint64_t mask = grid.starts.size() - 2;
+        for (uint64_t z = lo[2]; z <= hi[2]; ++z)
+            for (uint64_t y = lo[1]; y <= hi[1]; ++y) {
+                const uint64_t row = grid.row_key(y, z);
+                for (uint64_t x = lo[0]; x <= hi[0];) {
+                    // Cells along x have neighbouring buckets: all up to the end of the table in one go.
+                    const uint64_t first = row + x, bucket = first & mask;
+                    const uint64_t more = std::min(hi[0] - x, mask - bucket);
+                    const uint64_t end = grid.starts[bucket + more + 1];
+                    for (uint64_t i = grid.starts[bucket]; i < end; ++i)
+                        if (grid.entries[i].cell - first <= more && !visit(grid.entries[i])) return false;
+                    x += more + 1;
+                }
+            }
+        return true;
+    }
+
+private:
+    struct Level {
+        double radius = 0, cell_width = 1;
+        Imath::V3d lo{0}, hi{0};
+        uint64_t stride_y = 0, stride_z = 0; ///< of the keys; 0: the rows' keys are hashes
+        std::vector<uint64_t> starts; ///< of each bucket's entries, and the end; a power of two of buckets
+        std::vector<Entry> entries;   ///< sorted by bucket
+
+        uint64_t coordinate(double x, int axis) const
+        {
+            // Cells outside of the level's bounds are empty; the clamp also keeps far places within 64 bits.
+            const double clamped = std::clamp(x, lo[axis], hi[axis]);
+            return static_cast<uint64_t>(std::min((clamped - lo[axis]) / cell_width, 4e18));
+        }
+
+        /// The key of cell (0, y, z); cell (x, y, z) has x more, and its bucket is the key's low bits.
+        uint64_t row_key(uint64_t y, uint64_t z) const
+        {
+            // Where each cell can have its own bucket, neighbouring rows lie together in memory.
+            if (stride_y > 0) return y * stride_y + z * stride_z;
+            uint64_t h = y * 0x9e3779b97f4a7c15u;
+            h = (h ^ (h >> 32) ^ z) * 0xbf58476d1ce4e5b9u;
+            h = (h ^ (h >> 29)) * 0x94d049bb133111ebu;
+            return h ^ (h >> 31);
+        }
+    };
+
+    static void build(Level& level);
+
+    std::vector<Level> levels_;
+};
+
+} // namespace scree

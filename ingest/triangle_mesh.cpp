@@ -1,0 +1,80 @@
+#include "ingest/triangle_mesh.h"
+
+#include "ingest/mesh_topology.h"
+
+#include <algorithm>
+
+namespace scree {
+
+namespace {
+
+/// An edge of a face, without and with its direction.
+struct DirectedEdge {
+    uint64_t key = 0; ///< lower vertex, then higher
+    bool forward = false;
+
+    bool operator<(const DirectedEdge& other) const { return key < other.key; }
+};
+
+std::vector<DirectedEdge> sorted_edges(const TriangleMesh& mesh)
+{
+    std::vector<DirectedEdge> edges;
+    edges.reserve(3 * mesh.triangles.size());
+    for (const auto& triangle : mesh.triangles) {
+        for (size_t k = 0; k < 3; ++k) {
+            const auto [lower, higher] = std::minmax(triangle[k], triangle[(k + 1) % 3]);
+            edges.push_back({uint64_t{lower} << 32 | higher, triangle[k] == lower});
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    return edges;
+}
+
+} // namespace
+
+MeshTopology topology_of(const TriangleMesh& mesh)
+{
+    const std::vector<DirectedEdge> edges = sorted_edges(mesh);
+    MeshTopology topology{!edges.empty(), true};
+    for (size_t begin = 0; begin < edges.size();) {
+        size_t end = begin;
+        int64_t forward = 0;
+        for (; end < edges.size() && edges[end].key == edges[begin].key; ++end) forward += edges[end].forward;
+        const auto faces = static_cast<int64_t>(end - begin);
+        if (faces != 2) topology.closed = false;
+        // Faces that agree run along their edge in turns: as many forward as backward, but for one at a border.
+        if (std::abs(2 * forward - faces) > faces % 2) topology.oriented = false;
+        begin = end;
+    }
+    return topology;
+}
+
+bool is_closed_and_oriented(const TriangleMesh& mesh)
+{
+    const MeshTopology topology = topology_of(mesh);
+    return topology.closed && topology.oriented;
+}
+
+Imath::Box3d bounds_of(const TriangleMesh& mesh)
+{
+    Imath::Box3d bounds;
+    for (const auto& triangle : mesh.triangles) {
+        for (const uint32_t vertex : triangle) bounds.extendBy(mesh.positions[vertex]);
+    }
+    return bounds;
+}
+
+double signed_volume(const TriangleMesh& mesh)
+{
+    const Imath::Box3d bounds = bounds_of(mesh);
+    if (bounds.isEmpty()) return 0;
+    const Imath::V3d middle = bounds.min * 0.5 + bounds.max * 0.5;
+    double sum = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const Imath::V3d p = mesh.positions[a] - middle, q = mesh.positions[b] - middle, r = mesh.positions[c] - middle;
+        sum += p.dot(q.cross(r));
+    }
+    return sum / 6;
+}
+
+} // namespace scree
