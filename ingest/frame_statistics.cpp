@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace scree {
@@ -20,7 +21,7 @@ namespace {
 
 // A sphere of a real bed has a few hundred others in the cells around it. With more the radii are wrong, or grains
 // lie on top of each other, and looking at all pairs would take for ever.
-constexpr size_t most_candidates = 4096;
+constexpr size_t most_candidates = 2048;
 
 /// Periodic images: the box's edges along the axes that repeat.
 class Periodicity {
@@ -49,6 +50,18 @@ public:
         for (size_t k = 0; k < 3; ++k)
             if (periodic_[k]) place -= std::floor((place - lo_).dot(to_fraction_[k])) * edges_[k];
         return place;
+    }
+
+    /// How far the (wrapped) place is from the nearest face that repeats.
+    double clearance(const Imath::V3d& place) const
+    {
+        double least = std::numeric_limits<double>::infinity();
+        for (size_t k = 0; k < 3; ++k) {
+            if (!periodic_[k]) continue;
+            const double depth = (place - lo_).dot(to_fraction_[k]) * height_[k];
+            least = std::min({least, depth, height_[k] - depth});
+        }
+        return least;
     }
 
     /// The shifts that bring the (wrapped) place within reach of what lies in the box; the first is none.
@@ -110,9 +123,13 @@ Overlaps overlaps_of(const SphereGrid& grid, const Periodicity& periodicity, siz
         if (!(self.radius > 0)) continue;
         hits.clear();
         size_t candidates = 0;
+        const double clearance = periodicity.clearance(self.position);
         for (size_t other = level; other < grid.level_count(); ++other) {
             const double reach = self.radius + grid.level_radius(other);
-            periodicity.shifts(self.position, reach, shifts);
+            if (reach < clearance)
+                shifts.assign(1, Imath::V3d(0));
+            else
+                periodicity.shifts(self.position, reach, shifts);
             for (size_t s = 0; s < shifts.size(); ++s) {
                 const Imath::V3d place = self.position + shifts[s];
                 const bool done = grid.visit_near(other, place, reach, [&](const SphereGrid::Entry& entry) {

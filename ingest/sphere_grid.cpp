@@ -49,11 +49,11 @@ void SphereGrid::build(Level& level)
     // Points need cells of some width: about one a cell if they were spread evenly.
     const Imath::V3d extent = level.hi - level.lo;
     const double widest = std::max({extent.x, extent.y, extent.z});
-    level.cell_width = level.radius > 0 ? 2 * level.radius : widest / std::cbrt(static_cast<double>(level.entries.size()));
-    if (!(level.cell_width > 0)) level.cell_width = 1;
+    const double width = level.radius > 0 ? 2 * level.radius : widest / std::cbrt(static_cast<double>(level.entries.size()));
+    level.cells_per_length = std::isfinite(1 / width) ? 1 / width : 1;
 
     const uint64_t count = level.entries.size();
-    const Imath::V3d cells = extent / level.cell_width + Imath::V3d(1);
+    const Imath::V3d cells = extent * level.cells_per_length + Imath::V3d(1);
     uint64_t buckets = std::bit_ceil(2 * count);
     if (cells.x * cells.y * cells.z < 8.0 * static_cast<double>(count)) {
         level.stride_y = level.coordinate(level.hi.x, 0) + 1;
@@ -61,11 +61,15 @@ void SphereGrid::build(Level& level)
         buckets = std::bit_ceil(level.stride_z * (level.coordinate(level.hi.z, 2) + 1));
     }
     const uint64_t mask = buckets - 1;
+    const bool hashed = level.stride_y == 0;
+    if (hashed) level.filled.assign(std::bit_ceil(16 * count + 48) / 64, 0); // some 16 bits a sphere
     level.starts.assign(buckets + 1, 0);
     for (Entry& entry : level.entries) {
         const Imath::V3d& p = entry.position;
         entry.cell = level.row_key(level.coordinate(p.y, 1), level.coordinate(p.z, 2)) + level.coordinate(p.x, 0);
         ++level.starts[(entry.cell & mask) + 1];
+        const uint64_t bit = entry.cell & (64 * level.filled.size() - 1);
+        if (hashed) level.filled[bit / 64] |= uint64_t{1} << (bit % 64);
     }
     for (size_t i = 1; i < level.starts.size(); ++i) level.starts[i] += level.starts[i - 1];
     // Counting sort by bucket: stable, so that the order is that of the spheres.

@@ -53,10 +53,11 @@ public:
                     // Cells along x have neighbouring buckets: all up to the end of the table in one go.
                     const uint64_t first = row + x, bucket = first & mask;
                     const uint64_t more = std::min(hi[0] - x, mask - bucket);
+                    x += more + 1;
+                    if (!grid.may_hold(first, more)) continue;
                     const uint64_t end = grid.starts[bucket + more + 1];
                     for (uint64_t i = grid.starts[bucket]; i < end; ++i)
                         if (grid.entries[i].cell - first <= more && !visit(grid.entries[i])) return false;
-                    x += more + 1;
                 }
             }
         return true;
@@ -64,17 +65,30 @@ public:
 
 private:
     struct Level {
-        double radius = 0, cell_width = 1;
+        double radius = 0, cells_per_length = 1;
         Imath::V3d lo{0}, hi{0};
         uint64_t stride_y = 0, stride_z = 0; ///< of the keys; 0: the rows' keys are hashes
         std::vector<uint64_t> starts; ///< of each bucket's entries, and the end; a power of two of buckets
         std::vector<Entry> entries;   ///< sorted by bucket
+        std::vector<uint64_t> filled; ///< with hashed rows: a bit is set where cells of that key (its low bits) are filled
 
         uint64_t coordinate(double x, int axis) const
         {
             // Cells outside of the level's bounds are empty; the clamp also keeps far places within 64 bits.
             const double clamped = std::clamp(x, lo[axis], hi[axis]);
-            return static_cast<uint64_t>(std::min((clamped - lo[axis]) / cell_width, 4e18));
+            return static_cast<uint64_t>(std::min((clamped - lo[axis]) * cells_per_length, 4e18));
+        }
+
+        /// False only when the cells of keys first to first + more are empty: most are, and this fits a near cache.
+        bool may_hold(uint64_t first, uint64_t more) const
+        {
+            if (filled.empty()) return true;
+            const uint64_t mask = 64 * filled.size() - 1;
+            for (uint64_t k = 0; k <= more; ++k) {
+                const uint64_t bit = (first + k) & mask;
+                if (filled[bit / 64] >> (bit % 64) & 1) return true;
+            }
+            return false;
         }
 
         /// The key of cell (0, y, z); cell (x, y, z) has x more, and its bucket is the key's low bits.
