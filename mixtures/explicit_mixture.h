@@ -15,6 +15,7 @@ class ExplicitMixture final : public Mixture {
 public:
     /// types[i] is the type of sphere i; all below 65536.
     explicit ExplicitMixture(const std::vector<uint32_t>& types);
+    explicit ExplicitMixture(std::vector<uint8_t> types) : narrow_(std::move(types)) {}
 
     uint32_t type(uint64_t index, const Imath::V3f&) const override
     {

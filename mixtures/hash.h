@@ -18,11 +18,24 @@ constexpr uint64_t mix64(uint64_t x)
     return x;
 }
 
+/// The part of `hash_index` that does not depend on the index, for loops over many.
+constexpr uint64_t hash_key(uint64_t seed, uint64_t stream = 0)
+{
+    return mix64(seed * 0x9e3779b97f4a7c15ull + stream + 1);
+}
+
+/// hash_index(index, seed, stream) for key = hash_key(seed, stream).
+constexpr uint64_t hash_with_key(uint64_t index, uint64_t key)
+{
+    return mix64(mix64(index + 0x9e3779b97f4a7c15ull) ^ key);
+}
+
 /// Hash of an index under a seed and a stream (which of the several random things of one grain is meant).
+///
+/// mix64(mix64(index + G) ^ mix64(seed G + stream + 1)), G = 0x9e3779b97f4a7c15 (2^64 over the golden ratio), modulo 2^64.
 constexpr uint64_t hash_index(uint64_t index, uint64_t seed, uint64_t stream = 0)
 {
-    constexpr uint64_t golden = 0x9e3779b97f4a7c15ull;
-    return mix64(mix64(index + golden) ^ mix64(seed * golden + stream + 1));
+    return hash_with_key(index, hash_key(seed, stream));
 }
 
 /// The upper 53 bits of a hash as a number in [0, 1).

@@ -31,14 +31,23 @@ std::vector<double> split_numbers(const std::string& text, char separator, size_
     return numbers;
 }
 
+/// As split_numbers, of whole numbers in lo..hi.
+std::vector<int64_t> split_whole_numbers(const std::string& text, char separator, size_t count, double lo, double hi, const std::string& option,
+                                         const std::string& expected)
+{
+    std::vector<int64_t> whole;
+    for (const double x : split_numbers(text, separator, count, option, expected)) {
+        if (x != std::floor(x) || x < lo || x > hi) throw InputError(option, "'" + text + "'", fmt::format("{}, whole numbers in {:.0f}..{:.0f}", expected, lo, hi));
+        whole.push_back(static_cast<int64_t>(x));
+    }
+    return whole;
+}
+
 /// "A:B" or "A:B:STEP" or "A", frames counted from 0, B included.
 FrameRange parse_frames(const std::string& text)
 {
     const auto colons = static_cast<size_t>(std::count(text.begin(), text.end(), ':'));
-    const auto n = split_numbers(text, ':', std::min<size_t>(colons, 2) + 1, "--frames", "A, A:B or A:B:STEP, counted from 0");
-    for (const double x : n) {
-        if (x < 0 || x != std::floor(x) || x > 1e9) throw InputError("--frames", "'" + text + "'", "whole numbers from 0");
-    }
+    const auto n = split_whole_numbers(text, ':', std::min<size_t>(colons, 2) + 1, 0, 1e9, "--frames", "A, A:B or A:B:STEP, counted from 0");
     FrameRange range{static_cast<size_t>(n[0]), static_cast<size_t>(n.size() > 1 ? n[1] : n[0]), n.size() > 2 ? static_cast<size_t>(n[2]) : 1};
     if (range.step == 0 || range.last < range.first) throw InputError("--frames", "'" + text + "'", "A <= B and a STEP of at least 1");
     return range;
@@ -54,8 +63,7 @@ void take_over(Arguments& a)
 {
     RenderJob& job = a.job;
     if (!a.size.empty()) {
-        const auto n = split_numbers(a.size, 'x', 2, "--size", "WIDTHxHEIGHT, e.g. 640x480");
-        if (n[0] < 1 || n[1] < 1 || n[0] > 65536 || n[1] > 65536) throw InputError("--size", "'" + a.size + "'", "1x1 to 65536x65536");
+        const auto n = split_whole_numbers(a.size, 'x', 2, 1, 65536, "--size", "WIDTHxHEIGHT, e.g. 640x480");
         job.size = {static_cast<int>(n[0]), static_cast<int>(n[1])};
     }
     if (!a.crop.empty()) {
@@ -66,12 +74,13 @@ void take_over(Arguments& a)
         job.crop = {n[0], n[1], n[2], n[3]};
     }
     if (!a.pixels.empty()) {
-        const auto n = split_numbers(a.pixels, ',', 4, "--pixelbounds", "x0,x1,y0,y1 in pixels");
+        const auto n = split_whole_numbers(a.pixels, ',', 4, -1e6, 1e6, "--pixelbounds", "x0,x1,y0,y1 in pixels");
         job.pixel_bounds = std::array<int, 4>{static_cast<int>(n[0]), static_cast<int>(n[1]), static_cast<int>(n[2]), static_cast<int>(n[3])};
     }
     if (!a.frames.empty()) job.frames = parse_frames(a.frames);
     if (!a.debug.empty()) {
-        const auto n = split_numbers(a.debug, ',', 3, "--debug-sample", "x,y,sample");
+        const auto n = split_whole_numbers(a.debug, ',', 3, 0, 0x1p32 - 1, "--debug-sample", "x,y,sample");
+        if (n[0] > 65535 || n[1] > 65535) throw InputError("--debug-sample", "'" + a.debug + "'", "a pixel of the picture");
         job.debug_sample = SamplePlace{static_cast<int>(n[0]), static_cast<int>(n[1]), static_cast<uint32_t>(n[2])};
     }
     for (const std::string& item : a.overrides) {
@@ -110,7 +119,7 @@ void add_render_command(CLI::App& app)
     command->add_option("--pixelbounds", a.pixels, "Render only pixels x0,x1,y0,y1 (x1 and y1 excluded)");
     command->add_option("--aov", a.aov, "More channels: albedo,normal,depth,type,id,variance,samples")->delimiter(',');
     command->add_option("-t,--threads", job.threads, "Threads (default: all cores)")->check(CLI::Range(1, 4096));
-    command->add_option("--seed", job.options.seed, "Seed of the random numbers");
+    command->add_option("--seed", job.options.seed, "Seed of the random numbers")->check(CLI::NonNegativeNumber);
     command->add_option("--max-depth", job.max_depth, "Cut paths after this many scattering events; darkens the picture (default: never)");
     command->add_option("--direct-light", a.strategy, "How direct light is found: both, lights or scattering; for tests")
         ->check(CLI::IsMember({"both", "lights", "scattering"}));

@@ -101,7 +101,12 @@ PictureMetadata make_metadata(const RenderJob& job, const WorldBuilder& builder,
 }
 
 /// Whether a picture's name asks for EXR.
-bool is_exr(const std::filesystem::path& path) { return path.extension() == ".exr"; }
+bool is_exr(const std::filesystem::path& path)
+{
+    std::string extension = path.extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension == ".exr";
+}
 
 void check_outputs(const std::vector<std::string>& outputs)
 {
@@ -111,6 +116,7 @@ void check_outputs(const std::vector<std::string>& outputs)
         if (path.has_parent_path() && !std::filesystem::is_directory(path.parent_path())) {
             throw InputError("--output", "no folder '" + path.parent_path().string() + "'", "a folder that exists");
         }
+        if (!is_exr(path)) check_preview_format(path);
     }
 }
 
@@ -131,11 +137,21 @@ public:
     int run()
     {
         const InterruptGuard guard(console_.progress());
-        for (size_t frame = range_.first; frame <= range_.last && !interrupted_; frame += range_.step) run_frame(frame);
+        const bool stats_file = !job_.stats_json.empty() && !job_.plan_only;
+        if (stats_file) AtomicFile(job_.stats_json); // better told now than after hours of rendering
+        try {
+            for (size_t frame = range_.first; frame <= range_.last && !interrupted_; frame += range_.step) run_frame(frame);
+        } catch (const Cancelled&) {
+            interrupted_ = true;
+            say("interrupted before the first sample");
+        }
         console_.finish();
-        if (!job_.stats_json.empty() && !job_.plan_only) {
+        if (stats_file) {
             AtomicFile file(job_.stats_json);
-            std::ofstream(file.temporary()) << statistics_json(reports_);
+            std::ofstream out(file.temporary());
+            out << statistics_json(reports_);
+            out.close();
+            if (!out) throw InputError(job_.stats_json.string(), "a disk that is full or cannot be written", "room for the statistics");
             file.commit();
         }
         return interrupted_ ? interrupted_status : 0;
@@ -160,6 +176,9 @@ private:
     {
         const bool many = range_.first != range_.last;
         if (many) console_.set_prefix(fmt::format("frame {}", frame));
+        if (!job_.plan_only && !job_.debug_sample) {
+            for (const std::string& output : outputs_) AtomicFile(frame_path(output, frame, many)); // can be written, before the work
+        }
         const auto start = std::chrono::steady_clock::now();
         Progress& progress = console_.progress();
         const std::shared_ptr<const World> world = builder_.build(frame, progress);
@@ -191,12 +210,17 @@ private:
         if (job_.spp) options.spp = *job_.spp;
         else if (options.timeout > 0) options.spp = 1u << 30;
         if (job_.debug_sample) {
+            if (job_.debug_sample->x >= scene_.film.width || job_.debug_sample->y >= scene_.film.height) {
+                throw InputError("--debug-sample", fmt::format("pixel {},{}", job_.debug_sample->x, job_.debug_sample->y),
+                                 fmt::format("a pixel of the {}x{} picture", scene_.film.width, scene_.film.height));
+            }
             fmt::print("{}", debug_text(*world, tracer, camera, scene_.film.filter, *job_.debug_sample, options));
             return;
         }
         Film film = make_film(job_, scene_.film);
         const std::filesystem::path checkpoint = frame_path(outputs_[0], frame, many) + ".checkpoint";
-        const CheckpointKey key{mix64(builder_.scene_hash() ^ mix64(options.ept.max_depth)), options.seed};
+        const uint64_t estimator = mix64(options.ept.max_depth * uint64_t{4} + static_cast<uint64_t>(options.ept.direct_light));
+        const CheckpointKey key{mix64(builder_.scene_hash() ^ estimator), options.seed};
         if (job_.resume && std::filesystem::exists(checkpoint)) read_checkpoint(checkpoint, film, key);
 
         report.statistics = render(*world, tracer, camera, scene_.film.filter, film, options, progress);

@@ -45,6 +45,10 @@ bool render_tile(const World& world, const Tracer& tracer, const Camera& camera,
             while (pixel.drawn < target) {
                 const uint32_t s = pixel.drawn++;
                 const PathResult path = render_sample(world, tracer, camera, filter, x, y, s, options);
+                if (path.stopped) {
+                    --pixel.drawn;
+                    return false;
+                }
                 ++part.paths;
                 part.segments += path.segments;
                 part.shadow_rays += path.shadow_rays;
@@ -96,11 +100,13 @@ RenderStatistics render(const World& world, const Tracer& tracer, const Camera& 
         const auto stop = [&] {
             return progress.cancelled() || (done > 0 && options.timeout > 0 && seconds_since(start) > options.timeout);
         };
+        RenderOptions wave_options = options;
+        wave_options.ept.stop = stop;
         tbb::parallel_for(0, tiles, [&](int tile) {
             flush_subnormals();
             RenderStatistics part;
             const int x0 = film.x0() + tile % columns * tile_size, y0 = film.y0() + tile / columns * tile_size;
-            if (stop() || !render_tile(world, tracer, camera, filter, film, x0, y0, target, options, stop, part)) {
+            if (stop() || !render_tile(world, tracer, camera, filter, film, x0, y0, target, wave_options, stop, part)) {
                 complete = false;
             }
             const int count = ++finished;

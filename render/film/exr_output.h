@@ -29,4 +29,7 @@ void write_exr(const std::filesystem::path& path, const Film& film, const std::v
 /// Writes an 8-bit sRGB picture for looking at (PNG, JPEG, ... by the extension), clipped at white = 1.
 void write_preview(const std::filesystem::path& path, const Film& film);
 
+/// Throws InputError when write_preview knows no format of this extension.
+void check_preview_format(const std::filesystem::path& path);
+
 } // namespace scree

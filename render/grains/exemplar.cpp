@@ -14,7 +14,8 @@ namespace {
 struct Query {
     RTCIntersectContext context;
     const Exemplar* exemplar;
-    V3d o;
+    V3d o, d;
+    double rounding;
     uint32_t skip;
     float wanted; // sign of Ng . d that is let through; 0: both
 };
@@ -26,8 +27,10 @@ void keep_wanted_faces(const RTCFilterFunctionNArguments* args)
     const auto* hit = reinterpret_cast<const RTCHit*>(args->hit);
     const float side = hit->Ng_x * ray->dir_x + hit->Ng_y * ray->dir_y + hit->Ng_z * ray->dir_z;
     if (hit->primID == query->skip || side * query->wanted < 0) args->valid[0] = 0;
-    // With a wanted side the neighbours of `skip` face the wrong way; without one they must be told by their plane.
-    else if (query->wanted == 0 && query->skip != no_triangle && starts_on_plane(query->exemplar->corners(hit->primID), query->o)) {
+    // Within what rounding may have moved the start, a neighbour of `skip` may seem to be entered: double arithmetic tells.
+    // From inside, at an edge, the neighbour is left at once indeed.
+    else if (query->wanted <= 0 && query->skip != no_triangle && ray->tfar <= 0x1p-20f &&
+             !meets_triangle(query->exemplar->corners(hit->primID), query->o, query->d, query->rounding)) {
         args->valid[0] = 0;
     }
 }
@@ -94,7 +97,8 @@ uint64_t Exemplar::bytes() const
     return positions_.size() * sizeof(V3f) + triangles_.size() * sizeof(triangles_[0]);
 }
 
-bool Exemplar::intersect(const V3d& o, const V3d& d, double tmax, Facing facing, uint32_t skip, ExemplarHit& hit) const
+bool Exemplar::intersect(const V3d& o, const V3d& d, double rounding, double tmax, Facing facing, uint32_t skip,
+                         ExemplarHit& hit) const
 {
     V3d start = o;
     if (skip != no_triangle) {
@@ -108,6 +112,8 @@ bool Exemplar::intersect(const V3d& o, const V3d& d, double tmax, Facing facing,
     rtcInitIntersectContext(&query.context);
     query.exemplar = this;
     query.o = o;
+    query.d = d;
+    query.rounding = rounding;
     query.skip = skip;
     query.wanted = !closed_ ? 0.0f : facing == Facing::entering ? -1.0f : 1.0f;
 

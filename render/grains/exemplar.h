@@ -38,8 +38,8 @@ public:
     Exemplar& operator=(const Exemplar&) = delete;
 
     /// Nearest face of the wanted facing along o + t d, 0 <= t <= tmax. o lies within the unit sphere (or on it), d is unit.
-    /// `skip` is the face o lies on, if any.
-    bool intersect(const V3d& o, const V3d& d, double tmax, Facing facing, uint32_t skip, ExemplarHit& hit) const;
+    /// `skip` is the face o lies on, if any; rounding: by how much o may lie off it.
+    bool intersect(const V3d& o, const V3d& d, double rounding, double tmax, Facing facing, uint32_t skip, ExemplarHit& hit) const;
 
     /// The point of a hit, from the vertices, in double.
     V3d point(const ExemplarHit& hit) const;

@@ -12,14 +12,18 @@ inline V3d unit_normal(const std::array<V3d, 3>& corners)
     return (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
 }
 
-/// Whether a point lies in the triangle's plane but for the rounding of double arithmetic. A ray from there does not meet
-/// the triangle: what Embree finds in float is the rounding of a neighbour's edge.
-inline bool starts_on_plane(const std::array<V3d, 3>& corners, const V3d& point)
+/// Whether o + t d meets the triangle at some t > 0, in double (Möller and Trumbore 1997); a ray from its plane does not.
+/// rounding: by how much o may lie off its true place.
+inline bool meets_triangle(const std::array<V3d, 3>& corners, const V3d& o, const V3d& d, double rounding)
 {
-    const V3d to = corners[0] - point;
-    // A few roundings of 2^-53 of the coordinates that went in.
-    const double bound = 0x1p-48 * (corners[0].length() + point.length());
-    return std::abs(to.dot(unit_normal(corners))) <= bound;
+    const V3d e1 = corners[1] - corners[0], e2 = corners[2] - corners[0], s = o - corners[0];
+    const V3d n = e1.cross(e2);
+    const double det = d.dot(n), height = -s.dot(n);
+    if (std::abs(height) <= rounding * n.length()) return false;
+    if (!(height / det > 0)) return false;
+    const V3d q = s.cross(d);
+    const double u = e2.dot(q) / det, v = -e1.dot(q) / det;
+    return u >= 0 && v >= 0 && u + v <= 1;
 }
 
 } // namespace scree

@@ -28,6 +28,10 @@ public:
             const bool inside = grain_ != outside;
             const Hit hit = inside ? tracer_.intersect_inside(grain_, o_, d_, from_) : tracer_.intersect(o_, d_, from_);
             ++result_.segments;
+            if (result_.segments % 65536 == 0 && options_.stop && options_.stop()) {
+                result_.stopped = true;
+                break;
+            }
             alive = handle(hit);
             if (trail) trail->push_back({start, direction, hit, inside, weight_, result_.radiance});
         }

@@ -4,6 +4,7 @@
 #include "render/sampler.h"
 #include "render/scene/tracer.h"
 
+#include <functional>
 #include <vector>
 
 namespace scree {
@@ -14,6 +15,7 @@ enum class DirectLight : uint8_t { both, lights_only, scattering_only };
 struct EptOptions {
     DirectLight direct_light = DirectLight::both;
     uint32_t max_depth = 0; ///< scattering events after which a path is cut, which biases; 0: never
+    std::function<bool()> stop; ///< asked every 65,536 segments: a path that cannot end (white walls all around) is given up
 };
 
 /// One vertex of a replayed path.
@@ -31,6 +33,7 @@ struct PathResult {
     uint32_t shadow_rays = 0;
     uint32_t leaks = 0;    ///< rays inside a mesh that rounding let escape
     bool cut = false;      ///< by max_depth
+    bool stopped = false;  ///< by EptOptions::stop: no sample
 };
 
 /// Explicit path tracing: grains as they are, unidirectional, with next-event estimation and multiple importance

@@ -20,6 +20,8 @@ public:
     /// Unit direction with density `pdf(direction)` per solid angle.
     V3d sample(double u1, double u2) const;
     double pdf(const V3d& direction) const;
+    /// Radiances, scaled, top row first.
+    const std::vector<C3f>& texels() const { return texels_; }
     /// Mean radiance over the sphere.
     C3f mean() const;
 

@@ -5,7 +5,7 @@ namespace scree {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double largest = std::numeric_limits<float>::max(); // of what is kept as float
 
 /// The GGX width of a roughness 0..1: its square, as in Blender and glTF.
 double read_alpha(JsonObject& object)
@@ -37,14 +37,14 @@ Material read_material(const JsonValue& json)
         const auto ior = object.find("ior");
         if (ior) material.ior = ior->number(0.1, 10);
         material.alpha = read_alpha(object);
-        material.absorption = read_rgb(object, "absorption", C3f(0), 0, infinity);
+        material.absorption = read_rgb(object, "absorption", C3f(0), 0, largest);
         material.tint = read_rgb(object, "tint", C3f(1), 0, 1);
         if (material.ior == 1) material.alpha = 0; // nothing to be rough
         break;
     }
     case MaterialKind::conductor:
-        material.eta = object.require("eta").rgb(0, infinity);
-        material.k = object.require("k").rgb(0, infinity);
+        material.eta = object.require("eta").rgb(0, largest);
+        material.k = object.require("k").rgb(0, largest);
         material.alpha = read_alpha(object);
         material.tint = read_rgb(object, "tint", C3f(1), 0, 1);
         break;

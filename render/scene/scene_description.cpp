@@ -5,17 +5,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
 namespace scree {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double largest = std::numeric_limits<float>::max(); // of what is kept as float
 
 /// A number > 0.
 double read_positive(const JsonValue& value)
 {
-    const double x = value.number(0);
+    const double x = value.number(0, largest);
     if (x <= 0) value.fail("a number above 0");
     return x;
 }
@@ -102,7 +103,7 @@ LightDescription read_light(const JsonValue& json)
     light.place = json.place();
     light.kind = static_cast<Kind>(object.require("kind").choice({"constant", "environment", "distant", "rectangle", "sphere"}));
     const auto rgb = [&](const char* key, C3f& value) {
-        if (const auto found = object.find(key)) value = found->rgb(0, infinity);
+        if (const auto found = object.find(key)) value = found->rgb(0, largest);
     };
     switch (light.kind) {
     case Kind::constant: rgb("radiance", light.radiance); break;
@@ -166,14 +167,11 @@ GrainTypeDescription read_grain_type(const std::string& name, const JsonValue& j
 /// The dump's type numbers are the keys.
 int32_t read_type_number(const std::string& key, const JsonValue& where)
 {
-    size_t used = 0;
-    int number = 0;
-    try {
-        number = std::stoi(key, &used);
-    } catch (const std::exception&) {
-        used = 0;
+    int32_t number = 0;
+    const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), number);
+    if (error != std::errc() || end != key.data() + key.size() || std::to_string(number) != key) {
+        throw InputError(where.place(), "the key '" + key + "'", "a type number of the dump, e.g. \"1\"");
     }
-    if (used == 0 || used != key.size()) throw InputError(where.place(), "the key '" + key + "'", "a type number of the dump, e.g. \"1\"");
     return number;
 }
 
@@ -201,6 +199,7 @@ AssemblyDescription read_assembly(const JsonValue& json, const std::vector<Grain
                 check_type_name(name.string(), types, name);
                 assembly.types[read_type_number(key, *map)] = name.string();
             }
+            if (assembly.types.empty()) map->fail("a grain type for at least one type of the dump");
         } else if (types.size() != 1) {
             json.fail("the key 'types', which maps the dump's types to grain types", "e.g. \"types\": {\"1\": \"" + types[0].name + "\"}");
         }
@@ -208,6 +207,7 @@ AssemblyDescription read_assembly(const JsonValue& json, const std::vector<Grain
             if (radius->is_number()) {
                 assembly.radius = read_positive(*radius);
             } else {
+                if (!radius->is_object()) radius->fail("a number above 0, or an object of radii by type of the dump");
                 JsonObject entries = radius->object();
                 for (const std::string& key : entries.take_keys()) {
                     assembly.radius_of_type[read_type_number(key, *radius)] = read_positive(entries.require(key));
@@ -217,7 +217,7 @@ AssemblyDescription read_assembly(const JsonValue& json, const std::vector<Grain
     } else if (const auto spheres = object.find("spheres")) {
         for (const JsonValue& item : spheres->array()) {
             JsonObject entry = item.object();
-            AssemblyDescription::Sphere sphere{entry.require("center").vec3(), entry.require("radius").number(0), ""};
+            AssemblyDescription::Sphere sphere{entry.require("center").vec3(), entry.require("radius").number(0, largest), ""};
             if (const auto type = entry.find("type")) {
                 sphere.type = type->string();
                 check_type_name(sphere.type, types, *type);

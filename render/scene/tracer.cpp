@@ -23,6 +23,7 @@ struct LocalRay {
     Imath::M33d to_world;
     V3d centre, o, d;
     double radius;
+    double rounding; // of o: a few of 2^-53 of what it was computed from
 
     LocalRay(const GrainStore& grains, uint32_t grain, const V3d& world_o, const V3d& world_d)
         : to_world(grains.rotation(grain)), centre(grains.centre(grain)), radius(grains.radius(grain))
@@ -30,6 +31,7 @@ struct LocalRay {
         const Imath::M33d to_grain = to_world.transposed();
         o = (world_o - centre) * to_grain / radius;
         d = (world_d * to_grain).normalized();
+        rounding = 0x1p-49 * ((world_o.length() + centre.length()) / radius + 1);
     }
     V3d world_point(const V3d& p) const { return centre + (p * to_world) * radius; }
 };
@@ -67,16 +69,6 @@ V3d float_start(const World& world, const V3d& o, const V3d& d, const Place& fro
     const V3d n = unit_normal(corners(world.surfaces[from.index], from.triangle));
     const double bound = 0x1p-23 * (std::abs(n.x * o.x) + std::abs(n.y * o.y) + std::abs(n.z * o.z));
     return o + std::copysign(bound, n.dot(d)) * n;
-}
-
-bool offer_containing_one(RTCPointQueryFunctionArguments* args)
-{
-    auto* query = static_cast<TracerQuery*>(args->userPtr);
-    if (args->geomID != Tracer::Impl::mesh_id) return false;
-    const GrainStore& grains = query->tracer->world.grains;
-    const uint32_t grain = args->primID + grains.analytic_count;
-    if ((query->o - grains.centre(grain)).length2() <= grains.radius(grain) * grains.radius(grain)) query->offer_mesh(grain);
-    return false; // the search radius stays
 }
 
 /// Fills in point and normal of what a query found.
@@ -125,12 +117,12 @@ bool TracerQuery::offer_mesh(uint32_t grain)
     // Start at the unit sphere, where a float is precise.
     double entry = 0;
     if (local.o.length2() > 1 && !enters_sphere(V3d(0), 1, local.o, local.d, entry)) return false;
-    const double reach = std::min(best / local.radius - entry, 2.5); // no chord of the unit sphere is longer than 2
-    if (!(reach > 0)) return false;
+    const double end = std::min(best / local.radius - entry, 2.5); // no chord of the unit sphere is longer than 2
+    if (!(end > 0)) return false;
     const bool own = from.kind == HitKind::grain && from.index == grain;
     ExemplarHit hit;
     const Exemplar& exemplar = *world.types[world.grains.type_codes[grain]].exemplar;
-    if (!exemplar.intersect(local.o + entry * local.d, local.d, reach, Facing::entering, own ? from.triangle : no_triangle, hit)) {
+    if (!exemplar.intersect(local.o + entry * local.d, local.d, local.rounding, end, Facing::entering, own ? from.triangle : no_triangle, hit)) {
         return false;
     }
     const double t = (entry + hit.t) * local.radius;
@@ -142,12 +134,14 @@ bool TracerQuery::offer_mesh(uint32_t grain)
     return true;
 }
 
-void TracerQuery::offer_containing()
+bool TracerQuery::is_mesh_due(uint32_t grain, const RTCHit& hit) const
 {
-    RTCPointQuery point{static_cast<float>(o.x), static_cast<float>(o.y), static_cast<float>(o.z), 0, 0};
-    RTCPointQueryContext point_context;
-    rtcInitPointQueryContext(&point_context);
-    rtcPointQuery(tracer->scene, &point, &point_context, offer_containing_one, this);
+    const V3d centre = tracer->world.grains.centre(grain);
+    const double radius = tracer->world.grains.radius(grain);
+    if (hit.Ng_x * d.x + hit.Ng_y * d.y + hit.Ng_z * d.z < 0) return true;
+    // The far face is proposed alone when the ray starts inside, or so near outside that float does not tell.
+    const double distance = (o - centre).length();
+    return distance - radius <= 0x1p-20 * (distance + o.length());
 }
 
 void tracer_filter(const RTCFilterFunctionNArguments* args)
@@ -169,19 +163,20 @@ void tracer_filter(const RTCFilterFunctionNArguments* args)
         if (!enters_sphere(world.grains.centre(place.index), world.grains.radius(place.index), query.o, query.d, t)) return;
     } else if (hit->geomID == Tracer::Impl::mesh_id) {
         const uint32_t grain = hit->primID + world.grains.analytic_count;
-        // Spheres that hold the ray's start were offered before; the exemplar lies at or beyond the sphere's face, so the
-        // ray's end moves out from there, but never beyond the nearest hit known.
-        if (!enters_sphere(world.grains.centre(grain), world.grains.radius(grain), query.o, query.d, t)) return;
-        if (!query.offer_mesh(grain)) return;
-        ray->tfar = static_cast<float>(query.best - query.advanced);
+        // The exemplar lies at or beyond the sphere's near face: the ray's end moves out from there, but never beyond the
+        // nearest hit known.
+        if (!query.is_mesh_due(grain, *hit) || !query.offer_mesh(grain)) return;
+        ray->tfar = query.embree_end();
         args->valid[0] = -1;
         return;
     } else if (tracer.is_surface(hit->geomID)) {
         place = {HitKind::surface, hit->geomID - Tracer::Impl::first_surface, hit->primID};
         if (query.from.kind == HitKind::surface && query.from.index == place.index && query.from.triangle == place.triangle) return;
         const auto c = corners(world.surfaces[place.index], place.triangle);
-        if (starts_on_plane(c, query.o)) return; // a neighbour of what the ray leaves
         t = ray->tfar + query.advanced;
+        // Within what rounding to float may have moved the start, a neighbour of what the ray leaves may seem to be met.
+        const double rounding = 0x1p-20 * (query.o.length() + c[0].length());
+        if (query.from.kind != HitKind::none && t <= rounding && !meets_triangle(c, query.o, query.d, 0x1p-28 * rounding)) return;
     } else {
         place = {HitKind::light, tracer.light_of(hit->geomID)};
         if (place.index == query.target) return;
@@ -198,6 +193,7 @@ void tracer_filter(const RTCFilterFunctionNArguments* args)
     query.place = place;
     query.u = hit->u;
     query.v = hit->v;
+    ray->tfar = query.embree_end();
     args->valid[0] = -1;
 }
 
@@ -214,9 +210,12 @@ double Tracer::scene_radius() const { return impl_->radius; }
 namespace {
 
 /// Moves the start of a ray from far away to near the scene's sphere, where a float is precise; false when it misses.
-bool approach(double radius, TracerQuery& query)
+bool approach(const Tracer::Impl& tracer, TracerQuery& query)
 {
+    const double radius = tracer.radius;
+    query.reach = tracer.mesh_reach;
     if (query.o.length2() <= 4 * radius * radius) return true;
+    query.reach = 0; // no sphere is around a start this far out
     double t = 0;
     if (!enters_sphere(V3d(0), radius * (1 + 0x1p-10), query.o, query.d, t)) return false;
     query.advanced = t;
@@ -228,10 +227,9 @@ bool approach(double radius, TracerQuery& query)
 Hit Tracer::intersect(const V3d& o, const V3d& d, const Place& from) const
 {
     TracerQuery query(*impl_, o, d, from);
-    if (!approach(impl_->radius, query)) return {};
-    if (impl_->mesh_grains && query.advanced == 0) query.offer_containing();
+    if (!approach(*impl_, query)) return {};
     const V3d start = float_start(impl_->world, o, d, from) + query.advanced * d;
-    RTCRayHit ray = make_ray(start, d, query.best - query.advanced);
+    RTCRayHit ray = make_ray(start, d, query.embree_end());
     rtcIntersect1(impl_->scene, &query.context, &ray);
     return make_hit(query);
 }
@@ -244,7 +242,7 @@ Hit Tracer::intersect_inside(uint32_t grain, const V3d& o, const V3d& d, const P
     if (const auto& exemplar = world.types[world.grains.type_codes[grain]].exemplar) {
         const LocalRay local(world.grains, grain, o, d);
         ExemplarHit hit;
-        if (exemplar->intersect(local.o, local.d, 2.5, Facing::leaving, on_it ? from.triangle : no_triangle, hit)) {
+        if (exemplar->intersect(local.o, local.d, local.rounding, 2.5, Facing::leaving, on_it ? from.triangle : no_triangle, hit)) {
             query.best = hit.t * local.radius;
             query.place = {HitKind::grain, grain, hit.triangle};
             query.u = hit.u;
@@ -269,14 +267,11 @@ bool Tracer::occluded(const V3d& o, const V3d& d, double tmax, const Place& from
     TracerQuery query(*impl_, o, d, from);
     query.best = tmax;
     query.target = target;
-    if (!approach(impl_->radius, query)) return false;
-    if (impl_->mesh_grains && query.advanced == 0) {
-        query.offer_containing();
-        if (query.place.kind != HitKind::none) return true;
-    }
-    RTCRayHit ray = make_ray(float_start(impl_->world, o, d, from) + query.advanced * d, d, tmax - query.advanced);
+    if (!approach(*impl_, query)) return false;
+    if (tmax <= query.advanced) return false;
+    RTCRayHit ray = make_ray(float_start(impl_->world, o, d, from) + query.advanced * d, d, query.embree_end());
     rtcOccluded1(impl_->scene, &query.context, &ray.ray);
-    return ray.ray.tfar < 0;
+    return query.place.kind != HitKind::none;
 }
 
 } // namespace scree

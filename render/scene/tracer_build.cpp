@@ -14,7 +14,7 @@ Tracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const World& wor
     const GrainStore& grains = world.grains;
     attach_grains(analytic_id, 0, grains.analytic_count);
     attach_grains(mesh_id, grains.analytic_count, grains.size() - grains.analytic_count);
-    mesh_grains = grains.size() > grains.analytic_count;
+    for (uint32_t i = grains.analytic_count; i < grains.size(); ++i) mesh_reach = std::max(mesh_reach, 2.001 * grains.radius(i));
 
     const bool inside_possible = std::any_of(world.types.begin(), world.types.end(),
                                              [](const GrainType& type) { return type.material.transmits(); });

@@ -7,6 +7,7 @@
 #include <embree3/rtcore.h>
 
 #include <array>
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -25,7 +26,7 @@ struct Tracer::Impl {
     RTCScene surface_scene = nullptr;   // surfaces alone, for rays inside grains; null when no ray can be inside one
     uint32_t first_light = first_surface;
     std::vector<uint32_t> light_of_id;  // geometry id - first_light -> light
-    bool mesh_grains = false;
+    double mesh_reach = 0;              // the largest diameter of a mesh grain: how far on a sphere around a ray's start ends
     double radius = 0;
 
     Impl(std::shared_ptr<const EmbreeDevice> device, const World& world);
@@ -47,6 +48,7 @@ struct TracerQuery {
     const Tracer::Impl* tracer;
     V3d o, d;
     double advanced = 0;         // Embree's ray starts at o + advanced d
+    double reach = 0;            // Embree's ray is never shorter, so that every sphere around its start is proposed
     Place from;
     uint32_t target = no_light;  // a light that does not count
     double best = std::numeric_limits<double>::infinity(); // from o; nothing farther is accepted
@@ -59,10 +61,12 @@ struct TracerQuery {
         rtcInitIntersectContext(&context);
     }
 
-    /// Traces the mesh of a grain from o, outside; accepts a hit nearer than best.
+    /// Where Embree's ray may end.
+    float embree_end() const { return static_cast<float>(std::max(best - advanced, reach)); }
+    /// Traces the mesh of a grain from o, outside; takes a hit nearer than best.
     bool offer_mesh(uint32_t grain);
-    /// Offers every mesh grain whose bounding sphere holds o.
-    void offer_containing();
+    /// Whether a mesh grain's sphere, met at Embree's hit, is to be offered: entered there, or left there with o inside.
+    bool is_mesh_due(uint32_t grain, const RTCHit& hit) const;
 };
 
 /// Embree filter of every geometry, for nearest and for any hit: lets a candidate through only when it is really met.

@@ -135,15 +135,11 @@ Spheres WorldBuilder::Impl::read_spheres(size_t frame, const Progress& progress)
 GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, World& world)
 {
     const ParticleFrame& frame = spheres.frame;
-    Bounds bounds;
-    for (size_t i = 0; i < frame.size(); ++i) bounds.extend(frame.position[i]);
-    const V3d middle = bounds.space().origin;
-    if (frame.size() > 0) {
-        // The size counts radii, the origin does not: it must not move when a grain grows.
-        for (size_t i = 0; i < frame.size(); ++i) bounds.extend(frame.position[i], frame.radius[i]);
-        world.space = bounds.space();
-        world.space.origin = middle;
+    Bounds bounds; // grains of radius 0 are left out of the world, and so of its bounds
+    for (size_t i = 0; i < frame.size(); ++i) {
+        if (frame.radius[i] > 0) bounds.extend(frame.position[i], frame.radius[i]);
     }
+    world.space = bounds.space();
 
     std::vector<uint8_t> used(scene.types.size(), 0);
     for (size_t i = 0; i < frame.size(); ++i) used[spheres.mixture->type(i, {})] = 1;
@@ -182,6 +178,7 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, World& world)
     }
     if (without_size > 0) frame_warnings.push_back(fmt::format("{} grains of radius 0 are left out", without_size));
     hash = hash_vector(grains.type_codes, hash_vector(frame.radius, hash_vector(frame.position, hash_vector(frame.id, hash))));
+    hash = hash_vector(frame.orientation, hash);
     return grains;
 }
 
@@ -267,6 +264,7 @@ Light WorldBuilder::Impl::make_light(size_t index, const RenderSpace& space)
             parts.push_back({"environment map", true, description.file.filename().string(), seconds_since(start), 0});
         }
         light.map = map;
+        hash = hash_vector(map->texels(), hash);
         break;
     }
     case Kind::distant: {

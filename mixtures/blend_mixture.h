@@ -1,0 +1,41 @@
+#pragma once
+
+#include "mixtures/mixture.h"
+
+#include <memory>
+#include <vector>
+
+namespace scree {
+
+/// One mixture picks which of the others decides.
+class BlendMixture final : public Mixture {
+public:
+    /// The types of `by` are places in `mixtures`.
+    BlendMixture(std::unique_ptr<Mixture> by, std::vector<std::unique_ptr<Mixture>> mixtures)
+        : by_(std::move(by)), mixtures_(std::move(mixtures))
+    {
+    }
+
+    uint32_t type(uint64_t index, const Imath::V3f& position) const override
+    {
+        return mixtures_[by_->type(index, position)]->type(index, position);
+    }
+
+private:
+    std::unique_ptr<Mixture> by_;
+    std::vector<std::unique_ptr<Mixture>> mixtures_;
+};
+
+/// A mixture of the spheres of one tile, for a fill that repeats it: sphere index = copy * size + row.
+class TiledMixture final : public Mixture {
+public:
+    TiledMixture(std::unique_ptr<Mixture> tile, uint64_t size) : tile_(std::move(tile)), size_(size) {}
+
+    uint32_t type(uint64_t index, const Imath::V3f& position) const override { return tile_->type(index % size_, position); }
+
+private:
+    std::unique_ptr<Mixture> tile_;
+    uint64_t size_;
+};
+
+} // namespace scree

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "mixtures/mixture.h"
+#include "mixtures/sphere_ids.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace scree {
+
+/// A concentration of a grain type in space: a float grid of an OpenVDB file.
+struct ConcentrationField {
+    uint32_t type = 0;
+    std::filesystem::path file;
+    std::string grid; ///< its name; empty: the file's first float grid
+};
+
+/// The type is drawn by the hash of the sphere's id, with the concentrations at its centre as chances.
+///
+/// c_k: trilinear between voxel centres, negative or not finite ones as 0. With a `rest` type the chance of k is c_k, of
+/// the rest 1 - sum c, and where the sum is above 1, c_k over the sum. Without one it is c_k over the sum, and where all
+/// are 0 the first field's type. u = unit_double(hash_index(id, seed, stream)) chooses as in RandomMixture.
+class GridMixture final : public Mixture {
+public:
+    struct Options {
+        std::vector<ConcentrationField> fields; ///< at least one
+        std::optional<uint32_t> rest;
+        uint64_t seed = 0, stream = 0;
+    };
+
+    /// origin: the place that positions are relative to. Throws InputError naming the file.
+    GridMixture(const Options& options, SphereIds ids, const Imath::V3d& origin);
+    ~GridMixture() override;
+
+    uint32_t type(uint64_t index, const Imath::V3f& position) const override;
+
+private:
+    struct Fields;
+    std::unique_ptr<const Fields> fields_;
+    SphereIds ids_;
+    Imath::V3d origin_;
+    uint64_t key_;
+};
+
+} // namespace scree

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "mixtures/mixture.h"
+
+namespace scree {
+
+/// One grain type for all.
+class SingleMixture final : public Mixture {
+public:
+    explicit SingleMixture(uint32_t type) : type_(type) {}
+    uint32_t type(uint64_t, const Imath::V3f&) const override { return type_; }
+
+private:
+    uint32_t type_;
+};
+
+} // namespace scree

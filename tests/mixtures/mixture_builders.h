@@ -1,0 +1,38 @@
+#pragma once
+
+#include "ingest/particle_frame.h"
+#include "mixtures/make_mixture.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace scree::test {
+
+/// Random numbers for tests, in a row.
+class Numbers {
+public:
+    explicit Numbers(uint64_t seed) : seed_(seed) {}
+    uint64_t bits();
+    double unit(); ///< [0, 1)
+    uint64_t below(uint64_t n) { return bits() % n; }
+
+private:
+    uint64_t seed_, count_ = 0;
+};
+
+/// `count` spheres in a cube of edge `edge` around `center`, ids 1, 2, ..., types 1 to 3 in turns, radii log-normal of
+/// median 1 and the given sigma.
+ParticleFrame random_spheres(size_t count, double edge, double sigma = 0, Imath::V3d center = Imath::V3d(0), uint64_t seed = 1);
+
+/// The mixture of a JSON text for the frame, grain types "a" to "d", the dump's 1, 2, 3 being a, b, c.
+std::unique_ptr<Mixture> mixture_of(const std::string& json, const ParticleFrame* frame, const std::filesystem::path& folder = ".");
+
+/// The type of every sphere.
+std::vector<uint32_t> types_of(const Mixture& mixture, const ParticleFrame& frame);
+
+/// A float grid "c" of `edge`^3 voxels from (0, 0, 0) on, 1 wide, centres at whole numbers; value = x / (edge - 1).
+void write_ramp(const std::filesystem::path& path, int edge);
+
+} // namespace scree::test

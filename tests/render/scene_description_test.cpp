@@ -1,0 +1,330 @@
+// The scene file: every key with its default and unit, and what is said when something is wrong.
+
+#include "ingest/support/json.h"
+#include "render/scene/scene_description.h"
+#include "tests/ingest/test_files.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+namespace scree {
+namespace {
+
+using test::input_error_of;
+using testing::HasSubstr;
+
+SceneDescription read(const std::string& text)
+{
+    return read_scene(JsonDocument::parse(text, "scene.json", "/scenes/here"), "/scenes/here/scene.json");
+}
+
+const std::string camera = R"("camera": {"origin": [0, -10, 2], "target": [0, 0, 1]})";
+SceneDescription read_with(const std::string& keys) { return read("{" + camera + ", " + keys + "}"); }
+
+TEST(SceneDescription, HasDefaults)
+{
+    const SceneDescription scene = read("{" + camera + "}");
+    EXPECT_EQ(scene.file, "/scenes/here/scene.json");
+    EXPECT_EQ(scene.camera.kind, CameraKind::perspective);
+    EXPECT_EQ(scene.camera.origin, V3d(0, -10, 2));
+    EXPECT_EQ(scene.camera.target, V3d(0, 0, 1));
+    EXPECT_EQ(scene.camera.up, V3d(0, 0, 1));
+    EXPECT_EQ(scene.camera.fov, 35);
+    EXPECT_EQ(scene.camera.aperture, 0);
+    EXPECT_EQ(scene.camera.focus, 0);
+    EXPECT_EQ(scene.film.width, 640);
+    EXPECT_EQ(scene.film.height, 480);
+    EXPECT_EQ(scene.film.filter.kind, FilterKind::gaussian);
+    EXPECT_EQ(scene.film.filter.radius, 1.5);
+    EXPECT_TRUE(scene.film.aov.empty());
+    EXPECT_TRUE(scene.lights.empty());
+    EXPECT_TRUE(scene.surfaces.empty());
+    EXPECT_TRUE(scene.types.empty());
+    EXPECT_FALSE(scene.assembly);
+    EXPECT_EQ(scene.integrator, "auto");
+    EXPECT_EQ(scene.max_depth, 0u);
+}
+
+TEST(SceneDescription, ReadsCameras)
+{
+    const CameraDescription p = read(R"({"$schema": "scene.schema.json", "camera": {"kind": "perspective", "origin": [1, 2, 3], "target": [4, 5, 6],
+        "up": [0, 1, 0], "fov": 60.5, "aperture": 0.25, "focus": 12}})").camera;
+    EXPECT_EQ(p.origin, V3d(1, 2, 3));
+    EXPECT_EQ(p.target, V3d(4, 5, 6));
+    EXPECT_EQ(p.up, V3d(0, 1, 0));
+    EXPECT_EQ(p.fov, 60.5);
+    EXPECT_EQ(p.aperture, 0.25);
+    EXPECT_EQ(p.focus, 12);
+    const CameraDescription o = read(R"({"camera": {"kind": "orthographic", "origin": [1e7, 2, 3], "target": [4, 5, 6], "width": 20, "aperture": 1, "focus": 2}})").camera;
+    EXPECT_EQ(o.kind, CameraKind::orthographic);
+    EXPECT_EQ(o.width, 20);
+    EXPECT_EQ(o.origin.x, 1e7);
+    EXPECT_EQ(o.focus, 2);
+}
+
+TEST(SceneDescription, ReadsFilms)
+{
+    const FilmDescription film = read_with(R"("film": {"size": [64, 48.0], "filter": "box", "aov": ["albedo", "normal", "depth", "type", "id", "variance", "samples", "depth"]})").film;
+    EXPECT_EQ(film.width, 64);
+    EXPECT_EQ(film.height, 48);
+    EXPECT_EQ(film.filter.kind, FilterKind::box);
+    EXPECT_EQ(film.filter.radius, 0.5);
+    EXPECT_EQ(film.aov, (std::vector<Aov>{Aov::albedo, Aov::normal, Aov::depth, Aov::type, Aov::id, Aov::variance, Aov::samples}));
+    const Filter tent = read_with(R"("film": {"filter": "tent"})").film.filter;
+    EXPECT_EQ(tent.kind, FilterKind::tent);
+    EXPECT_EQ(tent.radius, 1);
+    const Filter wide = read_with(R"("film": {"filter": {"kind": "gaussian", "radius": 2.5}})").film.filter;
+    EXPECT_EQ(wide.kind, FilterKind::gaussian);
+    EXPECT_EQ(wide.radius, 2.5);
+    EXPECT_EQ(read_with(R"("film": {"filter": {"kind": "tent"}})").film.filter.radius, 1);
+}
+
+TEST(SceneDescription, ReadsLights)
+{
+    const auto lights = read_with(R"("lights": [{"kind": "constant"}, {"kind": "constant", "radiance": [1, 2, 3]},
+        {"kind": "environment", "file": "sky.exr"}, {"kind": "environment", "file": "/abs/sky.exr", "scale": 2, "up": [0, 1, 0]},
+        {"kind": "distant", "direction": [1, 2, -3]}, {"kind": "distant", "direction": [0, 0, -1], "irradiance": [3, 2, 1], "angle": 0},
+        {"kind": "rectangle", "corner": [1, 2, 3], "edges": [[1, 0, 0], [0, 2, 0]], "radiance": 10},
+        {"kind": "sphere", "center": [3, 2, 1], "radius": 0.5}])").lights;
+    ASSERT_EQ(lights.size(), 8u);
+    EXPECT_EQ(lights[0].radiance, C3f(1));
+    EXPECT_EQ(lights[1].radiance, C3f(1, 2, 3));
+    EXPECT_EQ(lights[2].file, "/scenes/here/sky.exr");
+    EXPECT_EQ(lights[2].scale, C3f(1));
+    EXPECT_EQ(lights[2].up, V3d(0, 0, 1));
+    EXPECT_EQ(lights[3].file, "/abs/sky.exr");
+    EXPECT_EQ(lights[3].scale, C3f(2));
+    EXPECT_EQ(lights[3].up, V3d(0, 1, 0));
+    EXPECT_EQ(lights[4].direction, V3d(1, 2, -3));
+    EXPECT_EQ(lights[4].irradiance, C3f(1));
+    EXPECT_EQ(lights[4].angle, 0.53);
+    EXPECT_EQ(lights[5].irradiance, C3f(3, 2, 1));
+    EXPECT_EQ(lights[5].angle, 0);
+    EXPECT_EQ(lights[6].corner, V3d(1, 2, 3));
+    EXPECT_EQ(lights[6].edge1, V3d(1, 0, 0));
+    EXPECT_EQ(lights[6].edge2, V3d(0, 2, 0));
+    EXPECT_EQ(lights[6].radiance, C3f(10));
+    EXPECT_EQ(lights[7].center, V3d(3, 2, 1));
+    EXPECT_EQ(lights[7].radius, 0.5);
+    EXPECT_EQ(lights[7].radiance, C3f(1));
+    EXPECT_EQ(lights[7].place, "scene.json: /lights/7");
+}
+
+TEST(SceneDescription, ReadsSurfacesAndMaterials)
+{
+    const auto surfaces = read_with(R"("surfaces": [
+        {"mesh": "a.obj", "material": {"kind": "lambert"}}, {"mesh": "../b.ply", "material": {"kind": "lambert", "reflectance": [0.1, 0.2, 1]}},
+        {"mesh": "c.obj", "material": {"kind": "dielectric"}},
+        {"mesh": "d.obj", "material": {"kind": "dielectric", "ior": 1.31, "roughness": 0.5, "absorption": [1, 2, 3], "tint": 0.98}},
+        {"mesh": "e.obj", "material": {"kind": "conductor", "eta": [0.2, 0.9, 1.1], "k": 3.9}},
+        {"mesh": "f.obj", "material": {"kind": "conductor", "eta": 0, "k": 0, "roughness": 1, "tint": [1, 0.5, 0]}},
+        {"mesh": "g.obj", "material": {"kind": "dielectric", "ior": 1, "roughness": 0.5}}])").surfaces;
+    ASSERT_EQ(surfaces.size(), 7u);
+    EXPECT_EQ(surfaces[0].mesh, "/scenes/here/a.obj");
+    EXPECT_EQ(surfaces[0].material.kind, MaterialKind::lambert);
+    EXPECT_EQ(surfaces[0].material.reflectance, C3f(0.5f));
+    EXPECT_EQ(surfaces[1].mesh, "/scenes/here/../b.ply");
+    EXPECT_EQ(surfaces[1].material.reflectance, C3f(0.1f, 0.2f, 1));
+    const Material& glass = surfaces[2].material;
+    EXPECT_EQ(glass.kind, MaterialKind::dielectric);
+    EXPECT_EQ(glass.ior, 1.5);
+    EXPECT_EQ(glass.alpha, 0);
+    EXPECT_EQ(glass.absorption, C3f(0.0f));
+    EXPECT_EQ(glass.tint, C3f(1));
+    EXPECT_EQ(surfaces[3].material.ior, 1.31);
+    EXPECT_EQ(surfaces[3].material.alpha, 0.25) << "the GGX width is the square of the roughness";
+    EXPECT_EQ(surfaces[3].material.absorption, C3f(1, 2, 3)) << "per unit of length of the scene";
+    EXPECT_EQ(surfaces[3].material.tint, C3f(0.98f));
+    EXPECT_EQ(surfaces[4].material.kind, MaterialKind::conductor);
+    EXPECT_EQ(surfaces[4].material.eta, C3f(0.2f, 0.9f, 1.1f));
+    EXPECT_EQ(surfaces[4].material.k, C3f(3.9f));
+    EXPECT_EQ(surfaces[5].material.alpha, 1);
+    EXPECT_EQ(surfaces[5].material.tint, C3f(1, 0.5f, 0));
+    EXPECT_EQ(surfaces[6].material.alpha, 0) << "without a step in the index there is nothing to be rough";
+}
+
+const std::string clay = R"("clay": {"shape": "sphere", "material": {"kind": "lambert"}})";
+const std::string stone = R"("stone": {"shape": {"mesh": "stone.ply"}, "material": {"kind": "lambert"}})";
+
+TEST(SceneDescription, ReadsGrainsFromADump)
+{
+    const SceneDescription scene = read_with(R"("grains": {"types": {)" + stone + ", " + clay +
+        R"(}, "assembly": {"dump": "run/pour.*.dump.gz", "types": {"1": "stone", "2": "clay", "-7": "clay"}, "radius": {"1": 0.5, "2": 1}}, "mixture": {"kind": "explicit"}})");
+    ASSERT_EQ(scene.types.size(), 2u);
+    EXPECT_EQ(scene.types[0].name, "clay") << "in order of name";
+    EXPECT_FALSE(scene.types[0].mesh);
+    EXPECT_EQ(scene.types[1].mesh, "/scenes/here/stone.ply");
+    ASSERT_TRUE(scene.assembly);
+    EXPECT_EQ(scene.assembly->dump, "/scenes/here/run/pour.*.dump.gz");
+    EXPECT_EQ(scene.assembly->types, (std::map<int32_t, std::string>{{1, "stone"}, {2, "clay"}, {-7, "clay"}}));
+    EXPECT_EQ(scene.assembly->radius_of_type, (std::map<int32_t, double>{{1, 0.5}, {2, 1}}));
+    EXPECT_FALSE(scene.assembly->radius);
+    // One type needs no map.
+    const auto one = read_with(R"("grains": {"types": {)" + clay + R"(}, "assembly": {"dump": "a.dump", "radius": 0.25}})").assembly;
+    EXPECT_TRUE(one->types.empty());
+    EXPECT_EQ(one->radius, 0.25);
+}
+
+TEST(SceneDescription, ReadsGrainsWrittenOut)
+{
+    const auto one = read_with(R"("grains": {"types": {)" + clay + R"(}, "assembly": {"spheres": [{"center": [1, 2, 3], "radius": 0.5}, {"center": [0, 0, 0], "radius": 0}]}})").assembly;
+    ASSERT_EQ(one->spheres.size(), 2u);
+    EXPECT_EQ(one->spheres[0].center, V3d(1, 2, 3));
+    EXPECT_EQ(one->spheres[0].radius, 0.5);
+    EXPECT_EQ(one->spheres[0].type, "");
+    const auto two = read_with(R"("grains": {"types": {)" + clay + ", " + stone + R"(}, "assembly": {"spheres": [{"center": [1, 2, 3], "radius": 0.5, "type": "stone"}]}})").assembly;
+    EXPECT_EQ(two->spheres[0].type, "stone");
+    EXPECT_TRUE(read_with(R"("grains": {"types": {)" + clay + R"(}, "assembly": {"spheres": []}})").assembly->spheres.empty());
+}
+
+TEST(SceneDescription, ReadsIntegrators)
+{
+    const SceneDescription scene = read_with(R"("medium": [], "integrator": {"kind": "ept", "accuracy": "reference", "max_depth": 7})");
+    EXPECT_EQ(scene.integrator, "ept");
+    EXPECT_EQ(scene.max_depth, 7u);
+    EXPECT_EQ(read_with(R"("integrator": {})").integrator, "auto");
+}
+
+TEST(SceneDescription, TakesNullForAbsent)
+{
+    EXPECT_EQ(read_with(R"("film": null, "integrator": {"max_depth": null}, "medium": null)").film.width, 640);
+}
+
+TEST(SceneDescription, CanonicalTextIgnoresLayoutAndComments)
+{
+    const std::string text = "{" + camera + R"(, "film": {"size": [4, 3]}})";
+    EXPECT_EQ(read("// A comment\n" + text).canonical, read(R"({"film": /* here */ {"size":[4,3]}, )" + camera + "}").canonical);
+    EXPECT_NE(read(text).canonical, read("{" + camera + R"(, "film": {"size": [3, 4]}})").canonical);
+}
+
+// --- wrong scenes ---
+
+struct Wrong {
+    std::string keys;     ///< after the camera; or a whole scene when it starts with {
+    std::string path, found, expected, hint;
+};
+
+const std::string grains_of_two = R"("grains": {"types": {)" + clay + ", " + stone + "}, ";
+
+const std::vector<Wrong> wrong_scenes{
+    {"{}", "/", "no key 'camera'", "the key 'camera'", ""},
+    {"[1]", "/", "[1]", "an object", ""},
+    {R"({"camra": {"origin": [0, 0, 0]}})", "/", "the key 'camra' and no 'camera'", "the key 'camera'", ""},
+    {R"("lihgts": [])", "/", "the unknown key 'lihgts'", "lights", "did you mean 'lights'?"},
+    {R"("film": {"size": [640]})", "/film/size", "[640]", "a list of 2", ""},
+    {R"("film": {"size": [640, 0]})", "/film/size/1", "0", "1..65536", ""},
+    {R"("film": {"size": [640, 480.5]})", "/film/size/1", "480.5", "a whole number", ""},
+    {R"("film": {"size": [1e30, 1]})", "/film/size/0", "1e+30", "65536", ""},
+    {R"("film": {"size": "big"})", "/film/size", "\"big\"", "a list of 2", ""},
+    {R"("film": {"width": 3})", "/film", "'width'", "one of aov, filter, size", ""},
+    {R"("film": {"filter": "gausian"})", "/film/filter", "\"gausian\"", "box, tent, gaussian", "did you mean 'gaussian'?"},
+    {R"("film": {"filter": {"kind": "box", "radius": 0}})", "/film/filter/radius", "0", "a number above 0", ""},
+    {R"("film": {"filter": {"radius": 1}})", "/film/filter", "no key 'kind'", "the key 'kind'", ""},
+    {R"("film": {"filter": 3})", "/film/filter", "3", "an object", ""},
+    {R"("film": {"aov": ["norml"]})", "/film/aov/0", "\"norml\"", "albedo, normal", "did you mean 'normal'?"},
+    {R"("film": {"aov": "normal"})", "/film/aov", "\"normal\"", "a list", ""},
+    {R"({"camera": {"target": [0, 0, 1]}})", "/camera", "no key 'origin'", "the key 'origin'", ""},
+    {R"({"camera": {"origin": [0, 0], "target": [0, 0, 1]}})", "/camera/origin", "[0,0]", "a list of 3", ""},
+    {R"({"camera": {"origin": [0, "a", 0], "target": [0, 0, 1]}})", "/camera/origin/1", "\"a\"", "a number", ""},
+    {R"({"camera": {"origin": [0, 0, 1], "target": [0, 0, 1]}})", "/camera/target", "[0,0,1]", "away from the origin", ""},
+    {R"({"camera": {"origin": [0, 0, 9], "target": [0, 0, 1]}})", "/camera", "an 'up' along the view", "across the view", "another axis"},
+    {R"({"camera": {"origin": [0, 0, 9], "target": [0, 1, 1], "up": [0, 0, 0]}})", "/camera/up", "[0,0,0]", "not 0", ""},
+    {R"({"camera": {"origin": [0, 1, 0], "target": [0, 0, 0], "fov": 180}})", "/camera/fov", "180", "below 180 degrees", ""},
+    {R"({"camera": {"origin": [0, 1, 0], "target": [0, 0, 0], "fov": 0}})", "/camera/fov", "0", "above 0", ""},
+    {R"({"camera": {"origin": [0, 1, 0], "target": [0, 0, 0], "fovy": 40}})", "/camera", "'fovy'", "fov", "did you mean 'fov'?"},
+    {R"({"camera": {"origin": [0, 1, 0], "target": [0, 0, 0], "width": 4}})", "/camera", "'width'", "one of aperture", ""},
+    {R"({"camera": {"kind": "orthographic", "origin": [0, 1, 0], "target": [0, 0, 0]}})", "/camera", "no key 'width'", "'width'", ""},
+    {R"({"camera": {"kind": "orthographic", "origin": [0, 1, 0], "target": [0, 0, 0], "width": 1, "fov": 40}})", "/camera", "'fov'", "width", ""},
+    {R"({"camera": {"kind": "fisheye", "origin": [0, 1, 0], "target": [0, 0, 0]}})", "/camera/kind", "\"fisheye\"", "perspective, orthographic", ""},
+    {R"({"camera": {"origin": [0, 1, 0], "target": [0, 0, 0], "aperture": -1}})", "/camera/aperture", "-1", "at least 0", ""},
+    {R"({"camera": {"origin": [0, 1, 0], "target": [0, 0, 0], "focus": true}})", "/camera/focus", "true", "a number", ""},
+    {R"("lights": {"kind": "constant"})", "/lights", "{\"kind\":\"constant\"}", "a list", ""},
+    {R"("lights": [{"radiance": 1}])", "/lights/0", "no key 'kind'", "the key 'kind'", ""},
+    {R"("lights": [{"kind": "constant"}, {"kind": "sun"}])", "/lights/1/kind", "\"sun\"", "distant", ""},
+    {R"("lights": [{"kind": "constant", "radiance": -1}])", "/lights/0/radiance", "-1", "0..", ""},
+    {R"("lights": [{"kind": "constant", "radiance": 1e39}])", "/lights/0/radiance", "1e+39", "0..3.4", ""},
+    {R"("lights": [{"kind": "constant", "radiance": [1, 2]}])", "/lights/0/radiance", "[1,2]", "one number or three", ""},
+    {R"("lights": [{"kind": "constant", "radiance": [1, 2, "3"]}])", "/lights/0/radiance/2", "\"3\"", "a number", ""},
+    {R"("lights": [{"kind": "constant", "irradiance": 1}])", "/lights/0", "'irradiance'", "radiance", "did you mean 'radiance'?"},
+    {R"("lights": [{"kind": "environment"}])", "/lights/0", "no key 'file'", "'file'", ""},
+    {R"("lights": [{"kind": "environment", "file": ""}])", "/lights/0/file", "\"\"", "the path of a file", ""},
+    {R"("lights": [{"kind": "environment", "file": "a.exr", "up": [0, 0, 0]}])", "/lights/0/up", "[0,0,0]", "not 0", ""},
+    {R"("lights": [{"kind": "distant", "direction": [0, 0, 0]}])", "/lights/0/direction", "[0,0,0]", "not 0", ""},
+    {R"("lights": [{"kind": "distant", "direction": [0, 0, 1], "angle": 181}])", "/lights/0/angle", "181", "0..180", ""},
+    {R"("lights": [{"kind": "rectangle", "corner": [0, 0, 0], "edges": [[1, 0, 0], [2, 0, 0]]}])", "/lights/0/edges", "[[1,0,0],[2,0,0]]", "span an area", ""},
+    {R"("lights": [{"kind": "rectangle", "corner": [0, 0, 0], "edges": [[1, 0, 0]]}])", "/lights/0/edges", "[[1,0,0]]", "a list of 2", ""},
+    {R"("lights": [{"kind": "sphere", "center": [0, 0, 0], "radius": 0}])", "/lights/0/radius", "0", "above 0", ""},
+    {R"("lights": [{"kind": "sphere", "centre": [0, 0, 0], "radius": 1}])", "/lights/0", "the key 'centre' and no 'center'", "'center'", ""},
+    {R"("surfaces": [{"mesh": "a.obj"}])", "/surfaces/0", "no key 'material'", "'material'", ""},
+    {R"("surfaces": [{"mesh": 3, "material": {"kind": "lambert"}}])", "/surfaces/0/mesh", "3", "a text in quotes", ""},
+    {R"("surfaces": [{"mesh": "a.obj", "material": "lambert"}])", "/surfaces/0/material", "\"lambert\"", "an object", ""},
+    {R"("surfaces": [{"mesh": "a.obj", "material": {"kind": "lambertian"}}])", "/surfaces/0/material/kind", "\"lambertian\"", "lambert, dielectric, conductor", "did you mean 'lambert'?"},
+    {R"("surfaces": [{"mesh": "a.obj", "material": {"kind": "lambert", "reflectance": 1.2}}])", "/surfaces/0/material/reflectance", "1.2", "0..1", ""},
+    {R"("surfaces": [{"mesh": "a.obj", "material": {"kind": "lambert", "colour": 1}}])", "/surfaces/0/material", "'colour'", "kind, reflectance", ""},
+    {R"("surfaces": [{"mesh": "a.obj", "material": {"kind": "lambert", "ior": 1}}])", "/surfaces/0/material", "'ior'", "kind, reflectance", ""},
+    {R"("surfaces": [{"mesh": "a.obj", "material": {"kind": "dielectric", "ior": 0}}])", "/surfaces/0/material/ior", "0", "0.1..10", ""},
+    {R"("surfaces": [{"mesh": "a.obj", "material": {"kind": "dielectric", "roughness": 2}}])", "/surfaces/0/material/roughness", "2", "0..1", ""},
+    {R"("surfaces": [{"mesh": "a.obj", "material": {"kind": "dielectric", "absorption": [0, -1, 0]}}])", "/surfaces/0/material/absorption/1", "-1", "0..", ""},
+    {R"("surfaces": [{"mesh": "a.obj", "material": {"kind": "dielectric", "tint": 2}}])", "/surfaces/0/material/tint", "2", "0..1", ""},
+    {R"("surfaces": [{"mesh": "a.obj", "material": {"kind": "conductor", "k": 1}}])", "/surfaces/0/material", "no key 'eta'", "'eta'", ""},
+    {R"("grains": {"assembly": {"spheres": []}})", "/grains", "no key 'types'", "'types'", ""},
+    {R"("grains": {"types": {}, "assembly": {"spheres": []}})", "/grains/types", "{}", "at least one grain type", ""},
+    {R"("grains": {"types": {)" + clay + "}}", "/grains", "no key 'assembly'", "'assembly'", ""},
+    {R"("grains": {"types": {"a": {"shape": "sugar", "material": {"kind": "lambert"}}}, "assembly": {"spheres": []}})", "/grains/types/a/shape", "\"sugar\"", "\"sphere\" or {\"mesh\": FILE}", "no other shapes"},
+    {R"("grains": {"types": {"a": {"shape": {"file": "x.obj"}, "material": {"kind": "lambert"}}}, "assembly": {"spheres": []}})", "/grains/types/a/shape", "no key 'mesh'", "'mesh'", ""},
+    {R"("grains": {"types": {"a": {"shape": "sphere"}}, "assembly": {"spheres": []}})", "/grains/types/a", "no key 'material'", "'material'", ""},
+    {R"("grains": {"types": {)" + clay + R"(}, "assembly": {}})", "/grains/assembly", "{}", "\"dump\" or \"spheres\"", ""},
+    {R"("grains": {"types": {)" + clay + R"(}, "assembly": {"fill": "a.off"}})", "/grains/assembly", "fill", "\"dump\" or \"spheres\"", "does not fill meshes yet"},
+    {R"("grains": {"types": {)" + clay + R"(}, "assembly": {"dump": "a", "spheres": []}})", "/grains/assembly", "'spheres'", "dump", ""},
+    {grains_of_two + R"("assembly": {"dump": "a.dump"}})", "/grains/assembly", "a.dump", "the key 'types'", "\"types\": {\"1\": \"clay\"}"},
+    {grains_of_two + R"("assembly": {"dump": "a.dump", "types": {}}})", "/grains/assembly/types", "{}", "at least one", ""},
+    {grains_of_two + R"("assembly": {"dump": "a.dump", "types": {"1": "cly"}}})", "/grains/assembly/types/1", "\"cly\"", "clay, stone", "did you mean 'clay'?"},
+    {grains_of_two + R"("assembly": {"dump": "a.dump", "types": {"one": "clay"}}})", "/grains/assembly/types", "the key 'one'", "a type number", ""},
+    {grains_of_two + R"("assembly": {"dump": "a.dump", "types": {" 1": "clay"}}})", "/grains/assembly/types", "the key ' 1'", "a type number", ""},
+    {grains_of_two + R"("assembly": {"dump": "a.dump", "types": {"01": "clay"}}})", "/grains/assembly/types", "the key '01'", "a type number", ""},
+    {grains_of_two + R"("assembly": {"dump": "a.dump", "types": {"99999999999": "clay"}}})", "/grains/assembly/types", "the key '99999999999'", "a type number", ""},
+    {grains_of_two + R"("assembly": {"dump": "a.dump", "types": {"1": "clay"}, "radius": 0}})", "/grains/assembly/radius", "0", "above 0", ""},
+    {grains_of_two + R"("assembly": {"dump": "a.dump", "types": {"1": "clay"}, "radius": {"1": -2}}})", "/grains/assembly/radius/1", "-2", "0", ""},
+    {grains_of_two + R"("assembly": {"dump": "a.dump", "types": {"1": "clay"}, "radius": "big"}})", "/grains/assembly/radius", "\"big\"", "a number above 0, or an object", ""},
+    {grains_of_two + R"("assembly": {"spheres": [{"center": [0, 0, 0], "radius": 1}]}})", "/grains/assembly/spheres/0", "radius", "the key 'type'", ""},
+    {grains_of_two + R"("assembly": {"spheres": [{"center": [0, 0, 0], "radius": 1, "type": "ston"}]}})", "/grains/assembly/spheres/0/type", "\"ston\"", "clay, stone", "did you mean 'stone'?"},
+    {R"("grains": {"types": {)" + clay + R"(}, "assembly": {"spheres": [{"center": [0, 0, 0], "radius": -1}]}})", "/grains/assembly/spheres/0/radius", "-1", "0", ""},
+    {R"("grains": {"types": {)" + clay + R"(}, "assembly": {"spheres": [{"center": [0, 0, 0], "radius": 1e39}]}})", "/grains/assembly/spheres/0/radius", "1e+39", "0..3.4", ""},
+    {R"("grains": {"types": {)" + clay + R"(}, "assembly": {"spheres": [{"centre": [0, 0, 0], "radius": 1}]}})", "/grains/assembly/spheres/0", "'centre'", "'center'", ""},
+    {R"("grains": {"types": {)" + clay + R"(}, "assembly": {"spheres": []}, "mixture": {"kind": "perlin"}})", "/grains/mixture/kind", "\"perlin\"", "explicit", ""},
+    {R"("medium": [{"mesh": "slab.off"}])", "/medium", "slab.off", "no medium", "grains and surfaces only"},
+    {R"("integrator": {"kind": "ppt"})", "/integrator/kind", "\"ppt\"", "auto, ept", "did you mean 'ept'?"},
+    {R"("integrator": {"accuracy": "best"})", "/integrator/accuracy", "\"best\"", "reference, high, standard, draft", ""},
+    {R"("integrator": {"max_depth": 0})", "/integrator/max_depth", "0", "1..", ""},
+    {R"("integrator": "ept")", "/integrator", "\"ept\"", "an object", ""},
+    {R"({"$schema": 3})", "/$schema", "3", "a text in quotes", ""},
+};
+
+TEST(SceneDescription, WrongScenesAreExplained)
+{
+    EXPECT_GE(wrong_scenes.size(), 30u);
+    for (const Wrong& wrong : wrong_scenes) {
+        SCOPED_TRACE(wrong.keys);
+        const bool whole = wrong.keys[0] == '{' || wrong.keys[0] == '[';
+        const auto error = input_error_of([&] { whole ? read(wrong.keys) : read_with(wrong.keys); });
+        ASSERT_TRUE(error);
+        EXPECT_EQ(error->place(), "scene.json: " + wrong.path);
+        EXPECT_THAT(error->found(), HasSubstr(wrong.found));
+        EXPECT_THAT(error->expected(), HasSubstr(wrong.expected));
+        EXPECT_THAT(error->hint(), HasSubstr(wrong.hint));
+        EXPECT_THAT(std::string(error->what()), testing::AllOf(HasSubstr(error->place()), HasSubstr(error->found()), HasSubstr(error->expected())));
+    }
+}
+
+TEST(SceneDescription, BrokenJsonIsToldByLineAndColumn)
+{
+    for (const auto& [text, place] : std::vector<std::pair<std::string, std::string>>{
+             {"{\n  \"camera\": {\n    \"fov\" 40\n}}", "scene.json:3:12"}, {"", "scene.json:1:1"}, {"{\"a\": 1e999}", "scene.json"}, {"{\"a\": nan}", "scene.json:1:8"}}) {
+        const auto error = input_error_of([&] { read(text); });
+        ASSERT_TRUE(error) << text;
+        EXPECT_THAT(error->place(), HasSubstr(place)) << text;
+    }
+}
+
+} // namespace
+} // namespace scree

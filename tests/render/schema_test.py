@@ -1,0 +1,189 @@
+"""The shipped schema says what the program says: of the examples, of good scenes and of broken ones.
+
+    schema_test.py SCHEMA SCREE PLAN_SCENES EXAMPLES
+
+For every scene, validation against the schema must agree with the exit code of `scree render SCENE --plan` (0 or 2); as a start of
+scree takes a third of a second, PLAN_SCENES tells that for many scenes at once, and scree itself for the examples and some. A broken
+scene is the good one with one change. What a schema cannot say (a target away from the origin) is told apart: there only the
+program must refuse.
+"""
+
+import copy
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+import jsonschema
+
+GOOD = {
+    "camera": {"kind": "perspective", "origin": [0, -10, 2], "target": [0, 0, 1], "up": [0, 0, 1], "fov": 35, "aperture": 0, "focus": 0},
+    "film": {"size": [16, 12], "filter": "gaussian", "aov": ["albedo", "normal", "depth", "type", "id", "variance", "samples"]},
+    "lights": [
+        {"kind": "constant", "radiance": 1},
+        {"kind": "distant", "direction": [0.3, 0.2, -1], "irradiance": [3, 3, 2.8], "angle": 0.53},
+        {"kind": "rectangle", "corner": [0, 0, 9], "edges": [[1, 0, 0], [0, 1, 0]], "radiance": 10},
+        {"kind": "sphere", "center": [0, 0, 9], "radius": 1, "radiance": [1, 2, 3]},
+    ],
+    "surfaces": [{"mesh": "tetra.obj", "material": {"kind": "conductor", "eta": 0.2, "k": [3, 3, 3], "roughness": 0.2, "tint": 1}}],
+    "grains": {
+        "types": {
+            "glass": {"shape": "sphere", "material": {"kind": "dielectric", "ior": 1.5, "roughness": 0, "absorption": [0, 1, 2], "tint": 0.98}},
+            "pebble": {"shape": {"mesh": "tetra.obj"}, "material": {"kind": "lambert", "reflectance": 0.6}},
+        },
+        "assembly": {"dump": "two.dump", "types": {"1": "glass", "2": "pebble"}, "radius": {"1": 0.5, "2": 0.25}},
+        "mixture": {"kind": "explicit"},
+    },
+    "medium": [],
+    "integrator": {"kind": "auto", "accuracy": "standard", "max_depth": 9},
+}
+
+REMOVE = object()
+
+# (path of keys, value): each on its own makes another good scene.
+GOOD_CHANGES = [
+    ((), {}),
+    (("$schema",), "scene.schema.json"),
+    (("film",), REMOVE), (("lights",), REMOVE), (("lights",), []), (("surfaces",), REMOVE), (("grains",), REMOVE), (("medium",), REMOVE),
+    (("integrator",), REMOVE), (("integrator",), {}), (("integrator", "kind"), "ept"), (("integrator", "max_depth"), 1),
+    (("camera",), {"origin": [0, 1, 0], "target": [0, 0, 0]}),
+    (("camera",), {"kind": "orthographic", "origin": [0, 1, 0], "target": [0, 0, 0], "width": 4, "aperture": 1, "focus": 2}),
+    (("camera", "fov"), 179.5), (("camera", "fov"), 1e-3),
+    (("film", "size"), [65536, 1]), (("film", "size"), [16.0, 12]), (("film", "aov"), []), (("film", "aov"), ["id", "id"]),
+    (("film", "filter"), "box"), (("film", "filter"), {"kind": "tent"}), (("film", "filter"), {"kind": "gaussian", "radius": 2}),
+    (("lights", 0), {"kind": "constant"}), (("lights", 0, "radiance"), [0, 0, 0]), (("lights", 1, "angle"), 0), (("lights", 1, "angle"), 180),
+    (("surfaces", 0, "material"), {"kind": "lambert"}), (("surfaces", 0, "material"), {"kind": "dielectric"}),
+    (("surfaces", 0, "material"), {"kind": "conductor", "eta": 0, "k": 0}),
+    (("grains", "types", "glass", "material", "ior"), 0.1), (("grains", "types", "glass", "material", "ior"), 10),
+    (("grains", "mixture"), REMOVE),
+    (("grains", "assembly", "radius"), 0.5),
+    (("grains", "assembly"), {"spheres": []}),
+    (("grains", "assembly"), {"spheres": [{"center": [0, 0, 0], "radius": 0, "type": "glass"}]}),
+    (("grains",), {"types": {"only": {"shape": "sphere", "material": {"kind": "lambert"}}}, "assembly": {"dump": "two.dump", "radius": 1}}),
+    (("grains",), {"types": {"only": {"shape": "sphere", "material": {"kind": "lambert"}}}, "assembly": {"spheres": [{"center": [0, 0, 0], "radius": 1}]}}),
+]
+
+# Each on its own makes a scene that both refuse.
+BAD_CHANGES = [
+    (("camera",), REMOVE), (("camra",), {}), (("camera",), []), (("camera", "kind"), "fisheye"), (("camera", "origin"), REMOVE), (("camera", "target"), [0, 0]),
+    (("camera", "target"), [0, 0, "1"]), (("camera", "up"), [0, 0, 0]), (("camera", "fov"), 0), (("camera", "fov"), 180), (("camera", "fov"), "wide"),
+    (("camera", "width"), 3), (("camera", "aperture"), -1), (("camera", "focus"), -1), (("camera", "fovy"), 3),
+    (("camera",), {"kind": "orthographic", "origin": [0, 1, 0], "target": [0, 0, 0]}),
+    (("camera",), {"kind": "orthographic", "origin": [0, 1, 0], "target": [0, 0, 0], "width": 0}),
+    (("camera",), {"kind": "orthographic", "origin": [0, 1, 0], "target": [0, 0, 0], "width": 1, "fov": 40}),
+    (("film",), []), (("film", "size"), [1]), (("film", "size"), [1, 2, 3]), (("film", "size"), [0, 1]), (("film", "size"), [1, 65537]),
+    (("film", "size"), [1.5, 1]), (("film", "filter"), "sinc"), (("film", "filter"), {"radius": 1}), (("film", "filter"), {"kind": "box", "radius": 0}),
+    (("film", "filter"), {"kind": "box", "width": 1}), (("film", "aov"), "depth"), (("film", "aov"), ["Z"]), (("film", "spp"), 16),
+    (("lights",), {}), (("lights", 0), {}), (("lights", 0, "kind"), "sun"), (("lights", 0, "radiance"), -1), (("lights", 0, "radiance"), [1, 2]),
+    (("lights", 0, "radiance"), 1e39), (("lights", 0, "radiance"), "1"), (("lights", 0, "scale"), 1), (("lights", 0), {"kind": "environment"}),
+    (("lights", 0), {"kind": "environment", "file": ""}), (("lights", 0), {"kind": "environment", "file": "no.exr", "up": [0, 0, 0]}),
+    (("lights", 1, "direction"), REMOVE), (("lights", 1, "direction"), [0, 0, 0]), (("lights", 1, "angle"), 181), (("lights", 1, "radiance"), 1),
+    (("lights", 2, "edges"), [[1, 0, 0]]), (("lights", 2, "edges"), REMOVE), (("lights", 2, "corner"), 3), (("lights", 3, "radius"), 0),
+    (("lights", 3, "center"), REMOVE), (("lights", 3, "corner"), [0, 0, 0]),
+    (("surfaces", 0, "mesh"), REMOVE), (("surfaces", 0, "mesh"), ""), (("surfaces", 0, "mesh"), 3), (("surfaces", 0, "material"), REMOVE),
+    (("surfaces", 0, "material"), "lambert"), (("surfaces", 0, "material", "kind"), "metal"), (("surfaces", 0, "material", "eta"), REMOVE),
+    (("surfaces", 0, "material", "k"), -1), (("surfaces", 0, "material", "roughness"), 1.1), (("surfaces", 0, "material", "tint"), [1, 1, 2]),
+    (("surfaces", 0, "material", "ior"), 1.5), (("surfaces", 0, "scale"), 2),
+    (("grains", "types"), REMOVE), (("grains", "types"), {}), (("grains", "types", "glass", "shape"), "cube"), (("grains", "types", "glass", "shape"), {"mesh": ""}),
+    (("grains", "types", "glass", "shape"), {"mesh": "tetra.obj", "scale": 1}), (("grains", "types", "glass", "material"), REMOVE),
+    (("grains", "types", "glass", "material", "ior"), 0.05), (("grains", "types", "glass", "material", "absorption"), -1),
+    (("grains", "types", "pebble", "material", "reflectance"), 1.5), (("grains", "types", "pebble", "material", "tint"), 1), (("grains", "types", "pebble", "color"), 1),
+    (("grains", "assembly"), REMOVE), (("grains", "assembly"), {}), (("grains", "assembly"), {"fill": "a.off"}), (("grains", "assembly", "spheres"), []),
+    (("grains", "assembly", "types"), REMOVE), (("grains", "assembly", "types"), {}), (("grains", "assembly", "types"), {"one": "glass"}),
+    (("grains", "assembly", "types"), {"01": "glass"}), (("grains", "assembly", "types"), {"+1": "glass"}), (("grains", "assembly", "types"), {"1": 3}),
+    (("grains", "assembly", "radius"), 0), (("grains", "assembly", "radius"), "1"), (("grains", "assembly", "radius"), {"1": 0}),
+    (("grains", "assembly", "radius"), {"big": 1}), (("grains", "assembly", "dump"), ""),
+    (("grains", "assembly"), {"spheres": [{"center": [0, 0, 0], "radius": 1}]}),
+    (("grains", "assembly"), {"spheres": [{"center": [0, 0, 0], "radius": -1, "type": "glass"}]}),
+    (("grains", "assembly"), {"spheres": [{"radius": 1, "type": "glass"}]}), (("grains", "assembly"), {"spheres": {}}),
+    (("grains", "mixture"), {}), (("grains", "mixture", "kind"), "perlin"), (("grains", "seed"), 1),
+    (("medium",), [{"mesh": "slab.off"}]), (("medium",), {}), (("integrator",), "ept"), (("integrator", "kind"), "ppt"), (("integrator", "accuracy"), "best"),
+    (("integrator", "max_depth"), 0), (("integrator", "max_depth"), 1.5), (("integrator", "depth"), 3), (("$schema",), 3), (("lihgts",), []),
+]
+
+# What only the program can see.
+BEYOND_A_SCHEMA = [
+    (("camera", "target"), [0, -10, 2]), (("camera", "up"), [0, -10, 1]), (("lights", 2, "edges"), [[1, 0, 0], [2, 0, 0]]),
+    (("grains", "assembly", "types"), {"1": "glass", "2": "pebbel"}), (("grains", "assembly", "types"), {"1": "glass"}),
+    (("grains", "assembly", "dump"), "no.dump"), (("surfaces", 0, "mesh"), "no.obj"), (("grains", "assembly", "types"), {"99999999999": "glass"}),
+]
+
+
+def changed(path, value):
+    scene = copy.deepcopy(GOOD)
+    if not path:
+        return scene
+    parent = scene
+    for key in path[:-1]:
+        parent = parent[key]
+    if value is REMOVE:
+        del parent[path[-1]]
+    else:
+        parent[path[-1]] = value
+    return scene
+
+
+def without_comments(text):
+    """JSON with // and /* */ comments as plain JSON; texts in quotes are left alone."""
+    return re.sub(r'("(?:\\.|[^"\\])*")|//[^\n]*|/\*.*?\*/', lambda m: m.group(1) or " ", text, flags=re.S)
+
+
+def main():
+    schema_file, scree, plan_scenes, examples = sys.argv[1:]
+    schema = json.loads(pathlib.Path(schema_file).read_text())
+    jsonschema.Draft7Validator.check_schema(schema)
+    validator = jsonschema.Draft7Validator(schema)
+    failures = []
+
+    def program_accepts(file):
+        run = subprocess.run([scree, "render", str(file), "--plan", "-o", "/tmp/never.exr"], capture_output=True, text=True)
+        if run.returncode not in (0, 2):
+            failures.append(f"{file}: exit code {run.returncode}: {run.stderr}")
+        return run.returncode == 0, run.stderr.strip()
+
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        (folder / "tetra.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n")
+        (folder / "two.dump").write_text("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ff ff ff\n-2 2\n-2 2\n-2 2\n"
+                                         "ITEM: ATOMS id type x y z\n1 1 0 0 0\n2 2 1 0 0\n")
+        cases = [(path, value, True, True) for path, value in GOOD_CHANGES]
+        cases += [(path, value, False, False) for path, value in BAD_CHANGES]
+        cases += [(path, value, True, False) for path, value in BEYOND_A_SCHEMA]
+
+        files = []
+        for number, (path, value, _, _) in enumerate(cases):
+            files.append(folder / f"scene{number}.json")
+            files[-1].write_text(json.dumps(changed(path, value)))
+        run = subprocess.run([plan_scenes, *map(str, files)], capture_output=True, text=True, check=True)
+        verdicts = [line.removeprefix("verdict ") for line in run.stdout.splitlines() if line.startswith("verdict ")]
+        if len(verdicts) != len(cases):
+            failures.append(f"{len(verdicts)} verdicts on {len(cases)} scenes: {run.stderr}")
+
+        for number, ((path, value, schema_accepts, accepted), file, verdict) in enumerate(zip(cases, files, verdicts)):
+            what = "/".join(map(str, path)) + (" removed" if value is REMOVE else f" = {value!r}")
+            errors = [f"{'/'.join(map(str, e.absolute_path))}: {e.message}" for e in validator.iter_errors(changed(path, value))]
+            if (not errors) != schema_accepts:
+                failures.append(f"{what}: the schema says {errors or 'nothing wrong'}")
+            if (verdict == "0") != accepted:
+                failures.append(f"{what}: the program says {verdict}")
+            if number % 25 == 0 and program_accepts(file)[0] != accepted:
+                failures.append(f"{what}: the program's exit code is not the verdict {verdict}")
+
+    scenes = sorted(pathlib.Path(examples).glob("*/scene.json"))
+    if not scenes:
+        failures.append(f"no scene in {examples}")
+    for file in scenes:
+        for error in validator.iter_errors(json.loads(without_comments(file.read_text()))):
+            failures.append(f"{file}: /{'/'.join(map(str, error.absolute_path))}: {error.message}")
+        good, message = program_accepts(file)
+        if not good:
+            failures.append(f"{file}: {message}")
+
+    print(f"{len(cases)} scenes and {len(scenes)} examples, {len(failures)} disagreements")
+    print("\n".join(failures))
+    return 1 if failures else 0
+
+
+sys.exit(main())
