@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstring>
 #include <map>
 
 namespace scree {
@@ -28,6 +29,13 @@ std::string read_all(const std::filesystem::path& path)
     }
     if (source.truncated()) throw InputError(path.string(), "packed data that end early", "a whole file");
     return text;
+}
+
+/// std::find does not know that the C library searches bytes sixteen and more at a time.
+const char* find_byte(const char* from, const char* end, char byte)
+{
+    const void* found = from < end ? std::memchr(from, byte, static_cast<size_t>(end - from)) : nullptr;
+    return found ? static_cast<const char*>(found) : end;
 }
 
 std::string_view trimmed(std::string_view field)
@@ -104,7 +112,7 @@ TypeTable read_csv_types(const std::filesystem::path& path, const std::string& t
 {
     const std::string place = path.string(), text = read_all(path);
     const char *at = text.data(), *const end = at + text.size();
-    const auto line_end = [&] { return std::find(at, end, '\n'); };
+    const auto line_end = [&] { return find_byte(at, end, '\n'); };
     if (text.starts_with("\xef\xbb\xbf")) at += 3; // the byte order mark of spreadsheets
     const char* stop = line_end();
     const Columns columns = find_columns(trimmed({at, static_cast<size_t>(stop - at)}), type, id, place);
@@ -127,7 +135,7 @@ TypeTable read_csv_types(const std::filesystem::path& path, const std::string& t
         size_t column = 0;
         for (const char* field = at; column <= last; ++column) {
             if (field > stop) fail(in_quotes({at, static_cast<size_t>(stop - at)}), fmt::format("at least {} fields", last + 1));
-            const char* const next = std::find(field, stop, columns.separator);
+            const char* const next = find_byte(field, stop, columns.separator);
             if (column == columns.type) {
                 const std::string_view word = trimmed({field, static_cast<size_t>(next - field)});
                 if (word.empty()) fail("no type", "a type number or a grain type");

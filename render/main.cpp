@@ -1,6 +1,7 @@
 #include "ingest/convert_command.h"
 #include "ingest/info_command.h"
 #include "ingest/support/error.h"
+#include "mixtures/mixture_command.h"
 #include "render/render_command.h"
 
 #include <CLI/CLI.hpp>
@@ -14,6 +15,7 @@ int main(int argc, char** argv)
     scree::add_render_command(app);
     scree::add_info_command(app);
     scree::add_convert_command(app);
+    scree::add_mixture_command(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::RuntimeError& status) {

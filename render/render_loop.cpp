@@ -101,7 +101,7 @@ RenderStatistics render(const World& world, const Tracer& tracer, const Camera& 
             return progress.cancelled() || (done > 0 && options.timeout > 0 && seconds_since(start) > options.timeout);
         };
         RenderOptions wave_options = options;
-        wave_options.ept.stop = stop;
+        wave_options.ept.stop = [&] { return progress.cancelled() || (options.timeout > 0 && seconds_since(start) > options.timeout); };
         tbb::parallel_for(0, tiles, [&](int tile) {
             flush_subnormals();
             RenderStatistics part;

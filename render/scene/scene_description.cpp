@@ -1,6 +1,7 @@
 #include "render/scene/scene_description.h"
 
 #include "ingest/support/json.h"
+#include "mixtures/read_mixture.h"
 
 #include <fmt/format.h>
 
@@ -184,7 +185,8 @@ void check_type_name(const std::string& name, const std::vector<GrainTypeDescrip
     where.fail(fmt::format("a grain type of the scene: {}", fmt::join(names, ", ")), nearest.empty() ? "" : nearest.substr(2));
 }
 
-AssemblyDescription read_assembly(const JsonValue& json, const std::vector<GrainTypeDescription>& types)
+/// by_type: whether each sphere must say its type, as the mixture is explicit and has no map of its own.
+AssemblyDescription read_assembly(const JsonValue& json, const std::vector<GrainTypeDescription>& types, bool by_type)
 {
     JsonObject object = json.object();
     AssemblyDescription assembly;
@@ -200,7 +202,7 @@ AssemblyDescription read_assembly(const JsonValue& json, const std::vector<Grain
                 assembly.types[read_type_number(key, *map)] = name.string();
             }
             if (assembly.types.empty()) map->fail("a grain type for at least one type of the dump");
-        } else if (types.size() != 1) {
+        } else if (by_type && types.size() != 1) {
             json.fail("the key 'types', which maps the dump's types to grain types", "e.g. \"types\": {\"1\": \"" + types[0].name + "\"}");
         }
         if (const auto radius = object.find("radius")) {
@@ -221,7 +223,7 @@ AssemblyDescription read_assembly(const JsonValue& json, const std::vector<Grain
             if (const auto type = entry.find("type")) {
                 sphere.type = type->string();
                 check_type_name(sphere.type, types, *type);
-            } else if (types.size() != 1) {
+            } else if (by_type && types.size() != 1) {
                 item.fail("the key 'type', as there are several grain types");
             }
             entry.done();
@@ -242,12 +244,11 @@ void read_grains(const JsonValue& json, SceneDescription& scene)
     JsonObject types = object.require("types").object();
     for (const std::string& name : types.take_keys()) scene.types.push_back(read_grain_type(name, types.require(name)));
     if (scene.types.empty()) types.value().fail("at least one grain type");
-    scene.assembly = read_assembly(object.require("assembly"), scene.types);
-    if (const auto mixture = object.find("mixture")) {
-        JsonObject kind = mixture->object();
-        kind.require("kind").choice({"explicit"});
-        kind.done();
-    }
+    std::vector<std::string> names;
+    for (const GrainTypeDescription& type : scene.types) names.push_back(type.name);
+    if (const auto mixture = object.find("mixture")) scene.mixture = read_mixture(*mixture, names);
+    const auto* listed = std::get_if<ExplicitDescription>(&scene.mixture.kind);
+    scene.assembly = read_assembly(object.require("assembly"), scene.types, listed && listed->types.empty() && listed->table.empty());
     object.done();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mixtures/mixture_description.h"
 #include "render/film/filter.h"
 #include "render/materials/material.h"
 #include "render/scene/camera.h"
@@ -77,6 +78,7 @@ struct SceneDescription {
     std::vector<SurfaceDescription> surfaces;
     std::vector<GrainTypeDescription> types; ///< in order of name
     std::optional<AssemblyDescription> assembly;
+    MixtureDescription mixture{ExplicitDescription{}, {}, {}}; ///< which grain type each sphere is
     std::string integrator = "auto";
     uint32_t max_depth = 0;
 };

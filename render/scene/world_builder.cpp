@@ -2,12 +2,14 @@
 
 #include "ingest/support/error.h"
 #include "ingest/triangle_mesh.h"
-#include "mixtures/explicit_mixture.h"
 #include "mixtures/hash.h"
+#include "mixtures/mixture_series.h"
 #include "render/lights/environment_file.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <map>
@@ -74,7 +76,7 @@ struct Bounds {
 /// The scene's spheres, whatever they come from, with the grain type of each.
 struct Spheres {
     ParticleFrame frame;
-    std::unique_ptr<ExplicitMixture> mixture;
+    std::vector<uint8_t> types;
 };
 
 } // namespace
@@ -83,6 +85,7 @@ struct WorldBuilder::Impl {
     SceneDescription scene;
     std::shared_ptr<EmbreeDevice> device = std::make_shared<EmbreeDevice>();
     std::optional<DumpSeries> series;
+    std::optional<MixtureSeries> mixtures;
     std::map<std::string, std::pair<std::shared_ptr<const Exemplar>, uint64_t>> exemplars; // by grain type, with the mesh's hash
     std::vector<TriangleMesh> surfaces;
     std::map<size_t, std::shared_ptr<const EnvironmentMap>> maps; // by light
@@ -96,39 +99,51 @@ struct WorldBuilder::Impl {
     void make_surfaces(World& world);
     LightSet make_lights(const World& world);
     Light make_light(size_t index, const RenderSpace& space);
-    uint32_t type_index(const std::string& name) const;
+    std::optional<MixtureSeries> make_mixtures() const;
+    ParticleFrame read_dump(size_t frame, const Progress& progress) const;
 };
 
-uint32_t WorldBuilder::Impl::type_index(const std::string& name) const
+std::optional<MixtureSeries> WorldBuilder::Impl::make_mixtures() const
 {
-    for (uint32_t i = 0; i < scene.types.size(); ++i) {
-        if (scene.types[i].name == name) return i;
+    if (!scene.assembly) return std::nullopt;
+    std::vector<std::string> names;
+    for (const GrainTypeDescription& type : scene.types) names.push_back(type.name);
+    std::map<int32_t, std::string> file_types = scene.assembly->types;
+    if (scene.assembly->dump.empty()) { // spheres of the scene file: read_spheres numbers types by their place in the list
+        for (size_t i = 0; i < names.size(); ++i) file_types[static_cast<int32_t>(i)] = names[i];
     }
-    return 0; // an unnamed type: the only one
+    return MixtureSeries(scene.mixture, names, file_types, scene.assembly->place + "/types");
 }
 
-Spheres WorldBuilder::Impl::read_spheres(size_t frame, const Progress& progress)
+ParticleFrame WorldBuilder::Impl::read_dump(size_t frame, const Progress& progress) const
+{
+    return series->read(frame, {scene.assembly->radius, scene.assembly->radius_of_type}, progress);
+}
+
+Spheres WorldBuilder::Impl::read_spheres(size_t number, const Progress& progress)
 {
     Spheres spheres;
-    const AssemblyDescription& assembly = *scene.assembly;
+    ParticleFrame& frame = spheres.frame;
     if (series) {
-        spheres.frame = series->read(frame, {assembly.radius, assembly.radius_of_type}, progress);
-        std::map<int32_t, uint32_t> types;
-        for (const auto& [number, name] : assembly.types) types[number] = type_index(name);
-        if (types.empty()) {
-            for (const int32_t type : spheres.frame.type) types[type] = 0;
+        frame = read_dump(number, progress);
+        if (const auto deciding = mixtures->deciding_frame(series->frame_count()); deciding && !mixtures->decided()) {
+            mixtures->decide(*deciding == number ? frame : read_dump(*deciding, progress));
         }
-        spheres.mixture = mixture_from_frame(spheres.frame, types, assembly.place + "/types");
-        return spheres;
+    } else {
+        for (const auto& sphere : scene.assembly->spheres) {
+            frame.id.push_back(frame.id.size());
+            frame.position.push_back(sphere.center);
+            frame.radius.push_back(static_cast<float>(sphere.radius));
+            const auto named = std::ranges::find(scene.types, sphere.type, &GrainTypeDescription::name);
+            frame.type.push_back(named == scene.types.end() ? 0 : static_cast<int32_t>(named - scene.types.begin()));
+        }
+        frame.has_ids = true;
     }
-    std::vector<uint32_t> types;
-    for (const auto& sphere : assembly.spheres) {
-        spheres.frame.id.push_back(types.size());
-        spheres.frame.position.push_back(sphere.center);
-        spheres.frame.radius.push_back(static_cast<float>(sphere.radius));
-        types.push_back(type_index(sphere.type));
-    }
-    spheres.mixture = std::make_unique<ExplicitMixture>(types);
+    const std::unique_ptr<Mixture> mixture = mixtures->mixture(frame);
+    spheres.types.resize(frame.size());
+    tbb::parallel_for(size_t{0}, frame.size(), [&](size_t i) {
+        spheres.types[i] = static_cast<uint8_t>(mixture->type(i, frame.relative_position(i)));
+    });
     return spheres;
 }
 
@@ -142,13 +157,13 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, World& world)
     world.space = bounds.space();
 
     std::vector<uint8_t> used(scene.types.size(), 0);
-    for (size_t i = 0; i < frame.size(); ++i) used[spheres.mixture->type(i, {})] = 1;
+    for (size_t i = 0; i < frame.size(); ++i) used[spheres.types[i]] = 1;
     make_types(used, world);
 
     GrainStore grains;
     uint64_t without_size = 0;
     const auto add = [&](size_t i) {
-        const uint32_t type = spheres.mixture->type(i, {});
+        const uint32_t type = spheres.types[i];
         const V3d p = world.space.point(frame.position[i]);
         const auto r = static_cast<float>(world.space.length(frame.radius[i]));
         if (!(r >= std::numeric_limits<float>::min())) { // also what underflows: too small for any ray
@@ -165,7 +180,7 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, World& world)
     grains.ids.reserve(frame.size());
     for (const bool meshes : {false, true}) {
         for (size_t i = 0; i < frame.size(); ++i) {
-            if ((world.types[spheres.mixture->type(i, {})].exemplar != nullptr) == meshes) add(i);
+            if ((world.types[spheres.types[i]].exemplar != nullptr) == meshes) add(i);
         }
         if (!meshes) grains.analytic_count = grains.size();
     }
@@ -322,6 +337,7 @@ WorldBuilder::WorldBuilder(SceneDescription scene) : impl_(std::make_unique<Impl
     }
     const auto& assembly = impl_->scene.assembly;
     if (assembly && !assembly->dump.empty()) impl_->series = DumpSeries::open(assembly->dump);
+    impl_->mixtures = impl_->make_mixtures();
 }
 
 WorldBuilder::~WorldBuilder() = default;
