@@ -57,7 +57,10 @@ GOOD_CHANGES = [
     (("surfaces", 0, "material"), {"kind": "lambert"}), (("surfaces", 0, "material"), {"kind": "dielectric"}),
     (("surfaces", 0, "material"), {"kind": "conductor", "eta": 0, "k": 0}),
     (("grains", "types", "glass", "material", "ior"), 0.1), (("grains", "types", "glass", "material", "ior"), 10),
-    (("grains", "mixture"), REMOVE),
+    (("grains", "mixture"), REMOVE), (("grains", "mixture"), "glass"), (("grains", "mixture"), {"kind": "random", "types": ["glass", "pebble"], "weights": [1, 3]}),
+    (("grains", "mixture"), {"kind": "explicit", "types": {"1": "pebble", "2": "glass"}}),
+    (("grains", "mixture"), {"kind": "perlin", "types": ["glass", "pebble"], "scale": 2}),
+    (("grains",), {**GOOD["grains"], "mixture": {"kind": "random", "types": ["glass"]}, "assembly": {"dump": "two.dump", "radius": 1}}),
     (("grains", "assembly", "radius"), 0.5),
     (("grains", "assembly"), {"spheres": []}),
     (("grains", "assembly"), {"spheres": [{"center": [0, 0, 0], "radius": 0, "type": "glass"}]}),
@@ -98,7 +101,9 @@ BAD_CHANGES = [
     (("grains", "assembly"), {"spheres": [{"center": [0, 0, 0], "radius": 1}]}),
     (("grains", "assembly"), {"spheres": [{"center": [0, 0, 0], "radius": -1, "type": "glass"}]}),
     (("grains", "assembly"), {"spheres": [{"radius": 1, "type": "glass"}]}), (("grains", "assembly"), {"spheres": {}}),
-    (("grains", "mixture"), {}), (("grains", "mixture", "kind"), "perlin"), (("grains", "seed"), 1),
+    (("grains", "mixture"), {}), (("grains", "mixture", "kind"), "perlin"), (("grains", "mixture", "kind"), "marble"),
+    (("grains", "mixture"), {"kind": "random", "types": []}), (("grains", "mixture"), 3), (("grains", "mixture", "seed"), 1), (("grains", "mixture"), {"file": ""}),
+    (("grains", "seed"), 1),
     (("medium",), [{"mesh": "slab.off"}]), (("medium",), {}), (("integrator",), "ept"), (("integrator", "kind"), "ppt"), (("integrator", "accuracy"), "best"),
     (("integrator", "max_depth"), 0), (("integrator", "max_depth"), 1.5), (("integrator", "depth"), 3), (("$schema",), 3), (("lihgts",), []),
 ]
@@ -107,7 +112,9 @@ BAD_CHANGES = [
 BEYOND_A_SCHEMA = [
     (("camera", "target"), [0, -10, 2]), (("camera", "up"), [0, -10, 1]), (("lights", 2, "edges"), [[1, 0, 0], [2, 0, 0]]),
     (("grains", "assembly", "types"), {"1": "glass", "2": "pebbel"}), (("grains", "assembly", "types"), {"1": "glass"}),
-    (("grains", "assembly", "dump"), "no.dump"), (("surfaces", 0, "mesh"), "no.obj"), (("grains", "assembly", "types"), {"99999999999": "glass"}),
+    (("grains", "assembly", "dump"), "no.dump"), (("surfaces", 0, "mesh"), "no.obj"), (("grains", "mixture"), "granite"),
+    (("grains", "mixture"), {"kind": "random", "types": ["glass", "granite"]}), (("grains", "mixture"), {"file": "no.json"}),
+    (("grains", "assembly", "types"), {"99999999999": "glass"}),
 ]
 
 
@@ -133,8 +140,10 @@ def without_comments(text):
 def main():
     schema_file, scree, plan_scenes, examples = sys.argv[1:]
     schema = json.loads(pathlib.Path(schema_file).read_text())
-    jsonschema.Draft7Validator.check_schema(schema)
-    validator = jsonschema.Draft7Validator(schema)
+    jsonschema.Draft202012Validator.check_schema(schema)
+    # Its reference to the mixtures' schema is a file beside it.
+    resolver = jsonschema.RefResolver(pathlib.Path(schema_file).resolve().as_uri(), schema)
+    validator = jsonschema.Draft202012Validator(schema, resolver=resolver)
     failures = []
 
     def program_accepts(file):
