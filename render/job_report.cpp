@@ -95,7 +95,7 @@ std::string statistics_json(const std::vector<FrameReport>& reports)
                           {"setup_seconds", report.setup_seconds}, {"render_seconds", s.seconds}, {"spp", s.spp}, {"paths", s.paths},
                           {"segments", s.segments}, {"shadow_rays", s.shadow_rays}, {"longest_path", s.longest},
                           {"segments_per_second", per_second(s.segments, s.seconds)}, {"non_finite", s.non_finite}, {"leaks", s.leaks},
-                          {"cut", s.cut}, {"cancelled", s.cancelled}, {"timed_out", s.timed_out}});
+                          {"cut", s.cut}, {"stopped", s.stopped}, {"cancelled", s.cancelled}, {"timed_out", s.timed_out}});
     }
     return json{{"version", SCREE_VERSION}, {"integrator", "ept"}, {"peak_memory_bytes", peak_memory()}, {"frames", frames}}.dump(2) + "\n";
 }

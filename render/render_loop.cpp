@@ -29,6 +29,7 @@ void add(RenderStatistics& total, const RenderStatistics& part)
     total.non_finite += part.non_finite;
     total.leaks += part.leaks;
     total.cut += part.cut;
+    total.stopped += part.stopped;
     total.longest = std::max(total.longest, part.longest);
     if (!total.first_non_finite) total.first_non_finite = part.first_non_finite;
 }
@@ -47,6 +48,7 @@ bool render_tile(const World& world, const Tracer& tracer, const Camera& camera,
                 const PathResult path = render_sample(world, tracer, camera, filter, x, y, s, options);
                 if (path.stopped) {
                     --pixel.drawn;
+                    ++part.stopped;
                     return false;
                 }
                 ++part.paths;

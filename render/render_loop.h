@@ -27,6 +27,7 @@ struct RenderStatistics {
     uint64_t paths = 0, segments = 0, shadow_rays = 0;
     uint64_t non_finite = 0;  ///< samples dropped for not being finite
     uint64_t leaks = 0;       ///< rays that rounding let out of a mesh between two of its triangles
+    uint64_t stopped = 0;     ///< paths given up because time ran out or the user stopped
     uint64_t cut = 0;         ///< paths ended by a depth limit the user set
     uint32_t longest = 0;     ///< segments of the longest path
     uint32_t spp = 0;         ///< samples every pixel has at least

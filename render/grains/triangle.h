@@ -22,7 +22,7 @@ inline bool meets_triangle(const std::array<V3d, 3>& corners, const V3d& o, cons
     if (std::abs(height) <= rounding * n.length()) return false;
     if (!(height / det > 0)) return false;
     const V3d q = s.cross(d);
-    const double u = e2.dot(q) / det, v = -e1.dot(q) / det;
+    const double u = -e2.dot(q) / det, v = e1.dot(q) / det;
     return u >= 0 && v >= 0 && u + v <= 1;
 }
 

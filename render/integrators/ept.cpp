@@ -47,10 +47,14 @@ private:
                 ++result_.leaks;
                 grain_ = outside;
                 from_ = {};
+                specular_ = true; // no light was sampled for this way
                 return true;
             }
             add_infinite_lights();
             return false;
+        }
+        if (const Material* medium = grain_ != outside ? &world_.material_of(grain_) : surrounding_) {
+            weight_ *= transmittance(*medium, hit.t);
         }
         if (hit.place.kind == HitKind::light) {
             add_light(hit);
@@ -63,7 +67,6 @@ private:
         ++depth_;
         const bool on_grain = hit.place.kind == HitKind::grain;
         const Material& material = on_grain ? world_.material_of(hit.place.index) : world_.surfaces[hit.place.index].material;
-        absorb(hit, on_grain ? nullptr : &material);
         const Frame frame(hit.normal);
         const V3d wo = frame.to_local(-d_);
         if (result_.segments == 1) note_first(hit, material);
@@ -76,7 +79,10 @@ private:
         weight_ *= sample.weight;
         if (!survives()) return false;
 
-        if (on_grain && material.transmits()) grain_ = sample.wi.z < 0 ? hit.place.index : outside;
+        if (material.transmits()) {
+            if (on_grain) grain_ = sample.wi.z < 0 ? hit.place.index : outside;
+            else surrounding_ = sample.wi.z < 0 ? &material : nullptr;
+        }
         o_ = hit.point;
         d_ = frame.to_world(sample.wi).normalized();
         from_ = hit.place;
@@ -96,12 +102,9 @@ private:
         return true;
     }
 
-    void absorb(const Hit& hit, const Material* surface)
+    static C3f transmittance(const Material& medium, double length)
     {
-        // Inside a grain, or behind a dielectric surface (seen from its back).
-        const Material* medium = grain_ != outside ? &world_.material_of(grain_)
-                                 : surface && surface->transmits() && hit.normal.dot(d_) > 0 ? surface : nullptr;
-        if (medium && !is_black(medium->absorption)) weight_ *= exp(medium->absorption * static_cast<float>(-hit.t));
+        return is_black(medium.absorption) ? C3f(1) : exp(medium.absorption * static_cast<float>(-length));
     }
 
     void note_first(const Hit& hit, const Material& material)
@@ -132,7 +135,9 @@ private:
         if (tracer_.occluded(hit.point, light.direction, light.distance, hit.place, light.light)) return;
         double w = 1;
         if (!light.delta && options_.direct_light == DirectLight::both) w = mis_weight(light.pdf, pdf_bsdf(material, wo, wi));
-        result_.radiance += weight_ * f * light.radiance * static_cast<float>(w / light.pdf);
+        C3f arriving = light.radiance;
+        if (surrounding_ && std::isfinite(light.distance)) arriving *= transmittance(*surrounding_, light.distance);
+        result_.radiance += weight_ * f * arriving * static_cast<float>(w / light.pdf);
     }
 
     /// Weight of light that scattering found, against the chance that sampling the light had of it.
@@ -169,6 +174,7 @@ private:
     V3d o_, d_;
     Place from_;
     uint32_t grain_ = outside; // that the path is inside of
+    const Material* surrounding_ = nullptr; // of the dielectric surface the path is inside of, outside grains
     C3f weight_{1};
     bool specular_ = true;     // the last scattering (or the camera) could not have sampled lights
     double scatter_pdf_ = 0;

@@ -15,6 +15,10 @@ EnvironmentMap read_environment(const std::filesystem::path& file, const V3d& up
         throw InputError(file.string(), image.geterror(), "a picture OpenImageIO can read (EXR, HDR, PNG, ...)");
     }
     const OIIO::ImageSpec& spec = image.spec();
+    if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width || spec.height != spec.full_height) {
+        throw InputError(file.string(), fmt::format("a crop of {}x{} out of {}x{} pixels", spec.width, spec.height, spec.full_width, spec.full_height),
+                         "the whole picture");
+    }
     const bool bytes = image.nativespec().format == OIIO::TypeUInt8;
     const int channels = spec.nchannels;
     const auto width = static_cast<size_t>(spec.width), height = static_cast<size_t>(spec.height);

@@ -247,6 +247,8 @@ Hit Tracer::intersect_inside(uint32_t grain, const V3d& o, const V3d& d, const P
             query.place = {HitKind::grain, grain, hit.triangle};
             query.u = hit.u;
             query.v = hit.v;
+        } else {
+            return {};
         }
     } else {
         const V3d to = world.grains.centre(grain) - o;

@@ -73,6 +73,20 @@ struct Bounds {
     }
 };
 
+/// The middle point axis by axis: in the midst of most of them, wherever a few may have gone.
+V3d median(const std::vector<V3d>& points)
+{
+    V3d middle;
+    std::vector<double> values(points.size());
+    for (int axis = 0; axis < 3; ++axis) {
+        std::ranges::transform(points, values.begin(), [axis](const V3d& p) { return p[axis]; });
+        const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::ranges::nth_element(values, half);
+        middle[axis] = *half;
+    }
+    return middle;
+}
+
 /// The scene's spheres, whatever they come from, with the grain type of each.
 struct Spheres {
     ParticleFrame frame;
@@ -96,6 +110,7 @@ struct WorldBuilder::Impl {
     Spheres read_spheres(size_t frame, const Progress& progress);
     GrainStore make_grains(Spheres spheres, World& world);
     void make_types(const std::vector<uint8_t>& used, World& world);
+    TriangleMesh read_surface(const SurfaceDescription& surface) const;
     void make_surfaces(World& world);
     LightSet make_lights(const World& world);
     Light make_light(size_t index, const RenderSpace& space);
@@ -155,6 +170,7 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, World& world)
         if (frame.radius[i] > 0) bounds.extend(frame.position[i], frame.radius[i]);
     }
     world.space = bounds.space();
+    if (!bounds.empty()) world.space.origin = median(frame.position); // one runaway grain must not cost the bed its precision
 
     std::vector<uint8_t> used(scene.types.size(), 0);
     for (size_t i = 0; i < frame.size(); ++i) used[spheres.types[i]] = 1;
@@ -231,11 +247,25 @@ void WorldBuilder::Impl::make_types(const std::vector<uint8_t>& used, World& wor
     }
 }
 
+TriangleMesh WorldBuilder::Impl::read_surface(const SurfaceDescription& surface) const
+{
+    TriangleMesh mesh = read_mesh(surface.mesh);
+    if (!surface.material.transmits()) return mesh;
+    if (!is_closed_and_oriented(mesh)) {
+        throw InputError(surface.mesh.string(), "an open or inconsistently oriented mesh", "a closed mesh, as its material is a dielectric",
+                         "close it, or give it an opaque material");
+    }
+    if (signed_volume(mesh) < 0) {
+        for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+    }
+    return mesh;
+}
+
 void WorldBuilder::Impl::make_surfaces(World& world)
 {
     const auto start = std::chrono::steady_clock::now();
     if (surfaces.empty()) {
-        for (const auto& surface : scene.surfaces) surfaces.push_back(read_mesh(surface.mesh));
+        for (const auto& surface : scene.surfaces) surfaces.push_back(read_surface(surface));
     }
     if (!scene.assembly || world.grains.size() == 0) {
         Bounds bounds;
@@ -318,6 +348,7 @@ LightSet WorldBuilder::Impl::make_lights(const World& world)
         point |= lights.back().kind == LightKind::distant && lights.back().one_minus_cos == 0;
     }
     for (const GrainType& type : world.types) glass |= type.material.transmits() || type.material.is_delta();
+    for (const Surface& surface : world.surfaces) glass |= surface.material.transmits() || surface.material.is_delta();
     if (point && glass) {
         frame_warnings.push_back("a distant light of angle 0 cannot be found by paths through glass: its caustics are missing");
     }

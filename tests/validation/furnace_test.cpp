@@ -144,5 +144,29 @@ TEST(Furnace, MixedSceneIsWhite)
     expect_white(run_furnace(scene, 3000), "mixed");
 }
 
+// Nothing leaves a closed room of white walls: a path that slips out between two of them would bring light in.
+TEST(ClosedRoom, LetsNoLightIn)
+{
+    for (const double half : {1.0, 17.3, 20.0}) {
+        TestScene scene;
+        TriangleMesh room = cube();
+        for (V3d& p : room.positions) p *= half;
+        scene.add_surface(room, lambert(0.999f));
+        scene.add_constant_light(1e6f);
+        scene.build();
+        double brought = 0;
+        uint64_t segments = 0;
+        for (uint32_t p = 0; p < 2000; ++p) {
+            Sampler sampler(41, p, 0, 0);
+            const V3d d = V3d(sampler.next() - 0.5, sampler.next() - 0.5, sampler.next() - 0.5).normalized();
+            const PathResult path = trace_ept(scene.world(), scene.tracer(), V3d(0.1, 0.2, 0.3), d, sampler);
+            brought += path.radiance.x;
+            segments += path.segments;
+        }
+        EXPECT_EQ(brought, 0) << half;
+        EXPECT_GT(segments, 500000u);
+    }
+}
+
 } // namespace
 } // namespace scree

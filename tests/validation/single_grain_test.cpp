@@ -111,6 +111,23 @@ TEST(SingleGrain, AbsorbsByItsSize)
     }
 }
 
+// A clear grain of radius 0.5 in a box of tea 2 wide, nothing refracts: the way through the middle absorbs over 1, however
+// the segments end.
+TEST(SingleGrain, SurroundingSurfaceAbsorbsOnTheWayInAndOut)
+{
+    Material tea = dielectric(1);
+    tea.absorption = C3f(0.5f);
+    TestScene scene;
+    scene.add_grain(V3d(0), 0.5, scene.add_type(dielectric(1)));
+    scene.add_surface(cube(), tea);
+    scene.add_constant_light(1);
+    scene.build();
+    Sampler sampler(1, 0, 0, 0);
+    const double scale = scene.space().length(1);
+    const PathResult path = trace_ept(scene.world(), scene.tracer(), scale * V3d(0.001, 0.0005, -5), V3d(0, 0, 1), sampler);
+    EXPECT_NEAR(path.radiance.x, std::exp(-0.5), 1e-5);
+}
+
 // A Lambertian sphere of albedo rho in a constant surrounding is rho all over.
 TEST(SingleGrain, LambertShowsItsReflectance)
 {
