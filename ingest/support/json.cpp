@@ -91,7 +91,6 @@ Imath::V3d JsonValue::vec3() const
 
 Imath::C3f JsonValue::rgb(double lo, double hi) const
 {
-    hi = std::min(hi, 1e37); // what a float holds, with room to be multiplied
     if (is_number()) return Imath::C3f(static_cast<float>(number(lo, hi)));
     if (!is_array() || value_->size() != 3) fail("one number or three (RGB)");
     const auto items = array(3, 3);

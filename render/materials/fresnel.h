@@ -32,8 +32,9 @@ inline double fresnel_conductor(double cos_i, double eta, double k)
     const double a2b2 = safe_sqrt(difference * difference + 4 * eta * eta * k * k);
     const double a = safe_sqrt(0.5 * (a2b2 + difference));
     const double perpendicular = (a2b2 + cos2 - 2 * cos_i * a) / (a2b2 + cos2 + 2 * cos_i * a);
-    const double parallel = perpendicular * (cos2 * a2b2 + sin4 - 2 * cos_i * a * sin2) /
-                            (cos2 * a2b2 + sin4 + 2 * cos_i * a * sin2);
+    const double denominator = cos2 * a2b2 + sin4 + 2 * cos_i * a * sin2;
+    if (denominator == 0) return perpendicular; // eta = k = 0 head on
+    const double parallel = perpendicular * (cos2 * a2b2 + sin4 - 2 * cos_i * a * sin2) / denominator;
     return 0.5 * (perpendicular + parallel);
 }
 

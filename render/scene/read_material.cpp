@@ -47,9 +47,6 @@ Material read_material(const JsonValue& json)
         material.k = object.require("k").rgb(0, largest);
         material.alpha = read_alpha(object);
         material.tint = read_rgb(object, "tint", C3f(1), 0, 1);
-        for (int c = 0; c < 3; ++c) {
-            if (material.eta[c] == 0 && material.k[c] == 0) json.fail("eta or k above 0 in every channel");
-        }
         break;
     }
     object.done();

@@ -73,18 +73,29 @@ struct Bounds {
     }
 };
 
-/// The middle point axis by axis: in the midst of most of them, wherever a few may have gone.
-V3d median(const std::vector<V3d>& points)
+/// The middle of the bounds; or, where a few grains have run so far away that the middle would cost the others their
+/// precision, the median of each axis.
+V3d scene_origin(const std::vector<V3d>& points, const Bounds& bounds)
 {
-    V3d middle;
-    std::vector<double> values(points.size());
+    constexpr double far = 1000; // in widths of the middle half of the grains
+    const V3d middle = bounds.space().origin;
+    const size_t n = points.size();
+    if (n < 16) return middle;
+    V3d median;
+    double width = 0, reach = 0;
+    std::vector<double> values(n);
     for (int axis = 0; axis < 3; ++axis) {
         std::ranges::transform(points, values.begin(), [axis](const V3d& p) { return p[axis]; });
-        const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::ranges::nth_element(values, half);
-        middle[axis] = *half;
+        const auto quantile = [&](size_t index) {
+            const auto place = values.begin() + static_cast<std::ptrdiff_t>(index);
+            std::ranges::nth_element(values, place);
+            return *place;
+        };
+        width = std::max(width, quantile(3 * n / 4) - quantile(n / 4));
+        median[axis] = quantile(n / 2);
+        reach = std::max({reach, bounds.hi[axis] - median[axis], median[axis] - bounds.lo[axis]});
     }
-    return middle;
+    return reach > far * width && width > 0 ? median : middle;
 }
 
 /// The scene's spheres, whatever they come from, with the grain type of each.
@@ -170,7 +181,7 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, World& world)
         if (frame.radius[i] > 0) bounds.extend(frame.position[i], frame.radius[i]);
     }
     world.space = bounds.space();
-    if (!bounds.empty()) world.space.origin = median(frame.position); // one runaway grain must not cost the bed its precision
+    world.space.origin = scene_origin(frame.position, bounds);
 
     std::vector<uint8_t> used(scene.types.size(), 0);
     for (size_t i = 0; i < frame.size(); ++i) used[spheres.types[i]] = 1;
