@@ -156,18 +156,6 @@ void give_radii(ParticleFrame& frame, const std::string& file, const DumpHeader&
                      fmt::format("give one for all types: --radius R, or by type: --radius{}", example.empty() ? " TYPE=R ..." : example));
 }
 
-void find_origin(ParticleFrame& frame)
-{
-    if (frame.size() == 0) return;
-    Imath::V3d lo = frame.position[0], hi = lo;
-    for (const Imath::V3d& p : frame.position)
-        for (int axis = 0; axis < 3; ++axis) {
-            lo[axis] = std::min(lo[axis], p[axis]);
-            hi[axis] = std::max(hi[axis], p[axis]);
-        }
-    frame.origin = lo * 0.5 + hi * 0.5;
-}
-
 } // namespace
 
 ParticleFrame read_dump_rows(LineReader& reader, const DumpHeader& header, const std::vector<std::string>& type_names,
@@ -200,7 +188,7 @@ ParticleFrame read_dump_rows(LineReader& reader, const DumpHeader& header, const
     else
         for (uint64_t i = 0; i < header.particles; ++i) frame.id[i] = i;
     if (!header.columns->has_radius) give_radii(frame, file, header, options, type_names);
-    find_origin(frame);
+    frame.origin = middle_of_bounds(frame.position);
     return frame;
 }
 

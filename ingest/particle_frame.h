@@ -48,4 +48,7 @@ struct ParticleFrame {
     Imath::V3f relative_position(size_t i) const { return Imath::V3f(position[i] - origin); }
 };
 
+/// The middle of the bounds of some places, which readers take for a frame's origin; 0 for none.
+Imath::V3d middle_of_bounds(const std::vector<Imath::V3d>& positions);
+
 } // namespace scree

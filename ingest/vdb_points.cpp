@@ -175,14 +175,7 @@ void finish(ParticleFrame& frame, const std::string& place)
     reorder(frame.id, order);
     const auto twice = std::ranges::adjacent_find(frame.id);
     if (twice != frame.id.end()) throw InputError(place, fmt::format("id {} twice", *twice), "every id once");
-    if (frame.size() == 0) return;
-    Imath::V3d lo = frame.position[0], hi = lo;
-    for (const Imath::V3d& p : frame.position)
-        for (int axis = 0; axis < 3; ++axis) {
-            lo[axis] = std::min(lo[axis], p[axis]);
-            hi[axis] = std::max(hi[axis], p[axis]);
-        }
-    frame.origin = lo * 0.5 + hi * 0.5;
+    frame.origin = middle_of_bounds(frame.position);
 }
 
 } // namespace

@@ -3,8 +3,7 @@
 #include "ingest/support/error.h"
 #include "render/grains/enclosing_sphere.h"
 #include "render/grains/triangle.h"
-
-#include <embree3/rtcore.h>
+#include "render/scene/embree_ray.h"
 
 namespace scree {
 
@@ -117,21 +116,7 @@ bool Exemplar::intersect(const V3d& o, const V3d& d, double rounding, double tma
     query.skip = skip;
     query.wanted = !closed_ ? 0.0f : facing == Facing::entering ? -1.0f : 1.0f;
 
-    RTCRayHit ray;
-    ray.ray.org_x = static_cast<float>(start.x);
-    ray.ray.org_y = static_cast<float>(start.y);
-    ray.ray.org_z = static_cast<float>(start.z);
-    ray.ray.dir_x = static_cast<float>(d.x);
-    ray.ray.dir_y = static_cast<float>(d.y);
-    ray.ray.dir_z = static_cast<float>(d.z);
-    ray.ray.tnear = 0;
-    ray.ray.tfar = static_cast<float>(tmax);
-    ray.ray.time = 0;
-    ray.ray.mask = ~0u;
-    ray.ray.id = 0;
-    ray.ray.flags = 0;
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCRayHit ray = make_ray(start, d, tmax);
     rtcIntersect1(scene_, &query.context, &ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     hit = {ray.ray.tfar, ray.hit.primID, ray.hit.u, ray.hit.v};
