@@ -2,6 +2,7 @@
 #include "ingest/info_command.h"
 #include "ingest/support/error.h"
 #include "mixtures/mixture_command.h"
+#include "packing/pack_command.h"
 #include "render/render_command.h"
 
 #include <CLI/CLI.hpp>
@@ -16,6 +17,7 @@ int main(int argc, char** argv)
     scree::add_info_command(app);
     scree::add_convert_command(app);
     scree::add_mixture_command(app);
+    scree::add_pack_command(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::RuntimeError& status) {

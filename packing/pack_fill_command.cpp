@@ -1,0 +1,11 @@
+#include "packing/pack_command.h"
+
+#include <CLI/CLI.hpp>
+
+namespace scree {
+
+void add_pack_fill_command(CLI::App&)
+{
+}
+
+} // namespace scree
