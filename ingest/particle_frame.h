@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Imath/ImathBox.h>
 #include <Imath/ImathMatrix.h>
 #include <Imath/ImathQuat.h>
 #include <Imath/ImathVec.h>
@@ -35,6 +36,7 @@ struct ParticleFrame {
     bool has_ids = false;                   ///< whether the ids come from the file
 
     std::optional<SimulationBox> box;
+    std::optional<Imath::Box3d> domain;     ///< bounds of the mesh the spheres were packed into, where a fill was listed
     int64_t step = 0;
     std::optional<double> time;
     std::string units;                      ///< LAMMPS unit style ("lj", "si", ...), empty when unknown

@@ -1,11 +1,12 @@
 #include "ingest/vdb_points.h"
 
 #include "ingest/support/error.h"
+#include "ingest/support/text.h"
+#include "ingest/vdb_point_grid.h"
 
 #include <fmt/format.h>
 #include <openvdb/openvdb.h>
-#include <openvdb/points/PointConversion.h>
-#include <openvdb/tools/PointIndexGrid.h>
+#include <openvdb/points/PointDataGrid.h>
 
 #include <algorithm>
 #include <limits>
@@ -19,72 +20,7 @@ namespace points = openvdb::points;
 using openvdb::Vec3d;
 using Orientation = openvdb::math::Quat<float>;
 
-Vec3d to_vdb(const Imath::V3d& v) { return {v.x, v.y, v.z}; }
 Imath::V3d from_vdb(const Vec3d& v) { return {v.x(), v.y(), v.z()}; }
-
-double voxel_size(const ParticleFrame& frame)
-{
-    if (frame.size() == 0) return 1;
-    double sum = 0, reach = 0;
-    for (size_t i = 0; i < frame.size(); ++i) {
-        sum += frame.radius[i];
-        const Imath::V3d d = frame.position[i] - frame.origin;
-        reach = std::max({reach, std::abs(d.x), std::abs(d.y), std::abs(d.z)});
-    }
-    const double from_radius = 4 * sum / double(frame.size());
-    const double from_extent = 2 * reach / std::cbrt(double(frame.size()));
-    // Voxels are counted in 32 bits, so that a grain far out forces larger ones.
-    const double least = reach / double(1 << 29);
-    const double size = std::max(from_radius > 0 ? from_radius : from_extent, least);
-    return size > 0 ? size : 1;
-}
-
-template <class T>
-void add_attribute(points::PointDataGrid& grid, const openvdb::tools::PointIndexGrid& index, const char* name, const std::vector<T>& values)
-{
-    points::appendAttribute(grid.tree(), name, points::TypedAttributeArray<T>::attributeType());
-    const points::PointAttributeVector<T> wrapped(values);
-    points::populateAttribute(grid.tree(), index.tree(), name, wrapped);
-}
-
-void add_metadata(points::PointDataGrid& grid, const ParticleFrame& frame)
-{
-    grid.insertMeta("step", openvdb::Int64Metadata(frame.step));
-    if (frame.time) grid.insertMeta("time", openvdb::DoubleMetadata(*frame.time));
-    if (!frame.units.empty()) grid.insertMeta("units", openvdb::StringMetadata(frame.units));
-    if (!frame.box) return;
-    const SimulationBox& box = *frame.box;
-    grid.insertMeta("box_lo", openvdb::Vec3DMetadata(to_vdb(box.lo)));
-    std::string periodic;
-    for (size_t k = 0; k < 3; ++k) {
-        grid.insertMeta(fmt::format("box_edge_{}", k), openvdb::Vec3DMetadata(to_vdb(box.edges[k])));
-        periodic += box.periodic[k] ? 'p' : 'f';
-    }
-    grid.insertMeta("box_periodic", openvdb::StringMetadata(periodic));
-    grid.insertMeta("box_triclinic", openvdb::BoolMetadata(box.triclinic));
-}
-
-points::PointDataGrid::Ptr make_grid(const ParticleFrame& frame)
-{
-    const auto transform = openvdb::math::Transform::createLinearTransform(voxel_size(frame));
-    transform->postTranslate(to_vdb(frame.origin));
-    std::vector<Vec3d> positions(frame.size());
-    std::ranges::transform(frame.position, positions.begin(), to_vdb);
-    std::vector<int64_t> ids(frame.id.begin(), frame.id.end());
-    std::vector<Orientation> orientations;
-    for (const Imath::Quatf& q : frame.orientation) orientations.emplace_back(q.v.x, q.v.y, q.v.z, q.r);
-
-    const points::PointAttributeVector<Vec3d> places(positions);
-    const auto index = openvdb::tools::createPointIndexGrid<openvdb::tools::PointIndexGrid>(places, *transform);
-    auto grid = points::createPointDataGrid<points::NullCodec, points::PointDataGrid>(*index, places, *transform);
-    grid->setName("points");
-    add_attribute(*grid, *index, "pscale", frame.radius);
-    add_attribute(*grid, *index, "type", frame.type);
-    if (frame.has_ids) add_attribute(*grid, *index, "id", ids);
-    if (!orientations.empty()) add_attribute(*grid, *index, "orient", orientations);
-    add_metadata(*grid, frame);
-    return grid;
-}
 
 template <class T> std::optional<T> metadata(const openvdb::GridBase& grid, const std::string& name)
 {
@@ -97,6 +33,8 @@ void read_metadata(const openvdb::GridBase& grid, ParticleFrame& frame)
     frame.step = metadata<int64_t>(grid, "step").value_or(0);
     frame.time = metadata<double>(grid, "time");
     frame.units = metadata<std::string>(grid, "units").value_or("");
+    const auto domain_lo = metadata<Vec3d>(grid, "domain_lo"), domain_hi = metadata<Vec3d>(grid, "domain_hi");
+    if (domain_lo && domain_hi) frame.domain = Imath::Box3d(from_vdb(*domain_lo), from_vdb(*domain_hi));
     const auto lo = metadata<Vec3d>(grid, "box_lo");
     if (!lo) return;
     SimulationBox box;
@@ -110,14 +48,30 @@ void read_metadata(const openvdb::GridBase& grid, ParticleFrame& frame)
     frame.box = box;
 }
 
-points::PointDataGrid::Ptr find_points(openvdb::io::File& file, const std::string& place)
+constexpr auto what_is_needed = "a PointDataGrid with P and pscale";
+
+std::vector<std::string> names_of_points(openvdb::io::File& file)
+{
+    std::vector<std::string> names;
+    for (auto name = file.beginName(); name != file.endName(); ++name)
+        if (file.readGridMetadata(name.gridName())->isType<points::PointDataGrid>()) names.push_back(name.gridName());
+    return names;
+}
+
+std::vector<points::PointDataGrid::Ptr> grids_called(openvdb::io::File& file, const std::string& place, const std::string& wanted)
 {
     file.open();
-    for (auto name = file.beginName(); name != file.endName(); ++name) {
-        const auto grid = openvdb::gridPtrCast<points::PointDataGrid>(file.readGrid(name.gridName()));
-        if (grid) return grid;
+    const std::vector<std::string> names = names_of_points(file);
+    if (names.empty()) throw InputError(place, "no grid of points", what_is_needed, "density and distance fields are no particles");
+    const std::string& first = wanted.empty() ? names[0] : wanted;
+    std::vector<points::PointDataGrid::Ptr> grids;
+    for (const std::string& name : names) { // with those that VdbPointStream added
+        if (name != first && !name.starts_with(first + "_part_")) continue;
+        grids.push_back(openvdb::gridPtrCast<points::PointDataGrid>(file.readGrid(name)));
     }
-    throw InputError(place, "no grid of points", "a PointDataGrid with P and pscale", "density and distance fields are no particles");
+    if (grids.empty())
+        throw InputError(place, "grids of points " + join_words(names), fmt::format("a PointDataGrid '{}'{}", wanted, did_you_mean(wanted, names)));
+    return grids;
 }
 
 /// Copies one leaf's points to the end of the frame.
@@ -175,39 +129,76 @@ void finish(ParticleFrame& frame, const std::string& place)
     reorder(frame.id, order);
     const auto twice = std::ranges::adjacent_find(frame.id);
     if (twice != frame.id.end()) throw InputError(place, fmt::format("id {} twice", *twice), "every id once");
-    frame.origin = middle_of_bounds(frame.position);
+    frame.origin = frame.domain ? 0.5 * frame.domain->min + 0.5 * frame.domain->max : middle_of_bounds(frame.position);
+}
+
+} // namespace
+
+namespace {
+
+/// Runs `work` on the file and makes what OpenVDB throws an error of ours.
+template <class Work> auto with_file(const std::filesystem::path& path, const Work& work)
+{
+    openvdb::initialize();
+    try {
+        openvdb::io::File file(path.string());
+        return work(file);
+    } catch (const openvdb::Exception& failure) {
+        throw InputError(path.string(), failure.what(), "an OpenVDB file of points");
+    }
+}
+
+ParticleFrame frame_of(const std::vector<points::PointDataGrid::Ptr>& grids, const std::string& place)
+{
+    ParticleFrame frame;
+    for (const auto& grid : grids)
+        for (auto leaf = grid->tree().cbeginLeaf(); leaf; ++leaf) append_leaf(*leaf, *grid, place, frame);
+    read_metadata(*grids[0], frame);
+    finish(frame, place);
+    return frame;
+}
+
+void write_grids(const openvdb::GridCPtrVec& grids, const std::filesystem::path& path)
+{
+    try {
+        openvdb::io::File(path.string()).write(grids);
+    } catch (const openvdb::Exception& failure) {
+        throw InputError(path.string(), failure.what(), "a file that can be written");
+    }
 }
 
 } // namespace
 
 void write_vdb_points(const ParticleFrame& frame, const std::filesystem::path& path)
 {
-    openvdb::initialize();
-    for (const uint64_t id : frame.id)
-        if (id > static_cast<uint64_t>(std::numeric_limits<int64_t>::max()))
-            throw InputError(path.string(), fmt::format("id {}", id), "ids below 2^63 to write as int64");
-    try {
-        openvdb::io::File(path.string()).write(openvdb::GridCPtrVec{make_grid(frame)});
-    } catch (const openvdb::Exception& failure) {
-        throw InputError(path.string(), failure.what(), "a file that can be written");
-    }
+    write_grids({make_point_grid(frame, "points", path.string())}, path);
+}
+
+void write_vdb_points(std::span<const NamedPoints> grids, const std::filesystem::path& path)
+{
+    openvdb::GridCPtrVec all;
+    for (const NamedPoints& grid : grids) all.push_back(make_point_grid(grid.frame, grid.name, path.string()));
+    write_grids(all, path);
 }
 
 ParticleFrame read_vdb_points(const std::filesystem::path& path)
 {
-    openvdb::initialize();
     const std::string place = path.string();
-    try {
-        openvdb::io::File file(place);
-        const points::PointDataGrid::Ptr grid = find_points(file, place);
-        ParticleFrame frame;
-        for (auto leaf = grid->tree().cbeginLeaf(); leaf; ++leaf) append_leaf(*leaf, *grid, place, frame);
-        read_metadata(*grid, frame);
-        finish(frame, place);
-        return frame;
-    } catch (const openvdb::Exception& failure) {
-        throw InputError(place, failure.what(), "an OpenVDB file of points");
-    }
+    return with_file(path, [&](openvdb::io::File& file) { return frame_of(grids_called(file, place, ""), place); });
+}
+
+ParticleFrame read_vdb_points(const std::filesystem::path& path, const std::string& name)
+{
+    const std::string place = path.string();
+    return with_file(path, [&](openvdb::io::File& file) { return frame_of(grids_called(file, place, name), place); });
+}
+
+std::vector<std::string> list_vdb_points(const std::filesystem::path& path)
+{
+    return with_file(path, [](openvdb::io::File& file) {
+        file.open();
+        return names_of_points(file);
+    });
 }
 
 } // namespace scree

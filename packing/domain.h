@@ -10,6 +10,8 @@
 
 namespace scree {
 
+class SurfaceTree;
+
 /// A first thing that is wrong with a mesh as the boundary of a solid, told with its place.
 struct MeshDefect {
     enum class Kind { empty, not_finite, degenerate, open, not_manifold, not_oriented, self_intersecting, inside_out } kind;
@@ -48,6 +50,8 @@ public:
     bool contains_sphere(const Imath::V3d& centre, double radius) const;
     /// Distance to the surface (unsigned, correctly rounded to some 1e-14 of the bounds).
     double distance(const Imath::V3d& point) const;
+    /// The triangles, for questions that are not asked of the whole solid.
+    const SurfaceTree& surface() const;
 
 private:
     struct Impl;

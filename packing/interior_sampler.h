@@ -1,6 +1,7 @@
 #pragma once
 
 #include "packing/domain.h"
+#include "packing/tetrahedra.h"
 
 #include <memory>
 #include <string>
@@ -13,7 +14,8 @@ namespace scree {
 /// fails (or was not built in: SCREE_TETGEN=OFF) the volume is by the divergence theorem and points are found by rejection.
 class InteriorSampler {
 public:
-    explicit InteriorSampler(const Domain& domain);
+    /// The domain must outlive the sampler.
+    explicit InteriorSampler(const Domain& domain, const TetgenOptions& options = {});
     ~InteriorSampler();
 
     /// Scene units cubed.

@@ -9,6 +9,8 @@
 
 namespace scree {
 
+struct ParticleFrame;
+
 /// Whole spheres in a periodic cuboid: the piece that a fill repeats without end.
 ///
 /// The tile comes in interchangeable variants. A sphere is a row: its radius and type are the same in every variant;
@@ -29,6 +31,9 @@ struct PackingTile {
     double largest_radius() const;
 };
 
+/// One variant as a frame with a periodic box; ids are rows.
+ParticleFrame tile_frame(const PackingTile& tile, size_t variant);
+
 /// Writes a tile as OpenVDB points: a grid "points" that is a whole periodic packing on its own (variant 0; `id` is the row)
 /// and a grid "variant_1", ... for each other variant. Throws InputError.
 void write_tile(const PackingTile& tile, const std::filesystem::path& path);
@@ -38,7 +43,7 @@ void write_tile(const PackingTile& tile, const std::filesystem::path& path);
 PackingTile read_tile(const std::filesystem::path& path);
 
 /// The largest (r_i + r_j - d) / min(r_i, r_j) of spheres in a periodic cuboid, images included; negative: the least gap
-/// among near neighbours. rows: the two spheres.
+/// among near neighbours, and -1 (rows 0, 0) where none is nearer than that. rows: the two spheres, or one and its image.
 struct TileOverlap {
     double overlap = 0;
     uint64_t rows[2] = {0, 0};

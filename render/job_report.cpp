@@ -55,7 +55,7 @@ std::string plan_text(const WorldBuilder& builder, const World& world, size_t fr
 
     bool glass = false;
     for (const GrainType& type : world.types) glass |= type.material.transmits();
-    const bool cut = glass && world.grains.size() > 0 && !world.surfaces.empty();
+    const bool cut = glass && world.has_grains() && !world.surfaces.empty();
     text += part_text({"surfaces inside grains", cut, cut ? "a second structure of the surfaces, for grains they cut through"
                                                          : "no path can be inside a grain and meet a surface"});
     text += part_text({"light sampling", world.lights.any_sampled(), world.lights.any_sampled()
@@ -114,7 +114,7 @@ std::string debug_text(const World& world, const Tracer& tracer, const Camera& c
         text += fmt::format("{:4} from ({:.9g} {:.9g} {:.9g}) along ({:.6f} {:.6f} {:.6f}){} meets {}", i, o.x, o.y, o.z, v.d.x, v.d.y, v.d.z,
                             v.inside ? " inside" : "", kind_name(v.hit.place.kind));
         if (v.hit.place.kind == HitKind::grain) {
-            text += fmt::format(" id {} type {}", world.grains.id(v.hit.place.index), world.types[world.grains.type_codes[v.hit.place.index]].name);
+            text += fmt::format(" id {} type {}", world.id(v.hit.place.index), world.types[v.hit.place.type].name);
         } else if (v.hit.place.kind == HitKind::surface) {
             text += " " + world.surfaces[v.hit.place.index].name;
         }

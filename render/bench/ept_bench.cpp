@@ -46,7 +46,7 @@ public:
             std::memcpy(indices, mesh->triangles.data(), 12 * mesh->triangles.size());
             add(mesh_scene_, geometry);
             rtcCommitScene(mesh_scene_);
-            for (uint32_t i = 0; i < grains.size(); ++i) add(scene_, instance(grains, i));
+            for (uint32_t i = 0; i < grains.size(); ++i) add(scene_, instance(scene.world(), i));
         }
         rtcCommitScene(scene_);
     }
@@ -83,13 +83,13 @@ private:
         rtcAttachGeometry(scene, geometry);
         rtcReleaseGeometry(geometry);
     }
-    RTCGeometry instance(const GrainStore& grains, uint32_t i) const
+    RTCGeometry instance(const World& world, uint32_t i) const
     {
         RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(geometry, mesh_scene_);
-        const Imath::M33d m = grains.rotation(i);
-        const auto r = static_cast<float>(grains.radius(i));
-        const V3f c(grains.centre(i));
+        const Imath::M33d m = world.rotation(i);
+        const auto r = static_cast<float>(world.grains.radius(i));
+        const V3f c(world.grains.centre(i));
         float columns[12];
         for (int row = 0; row < 3; ++row) {
             for (int k = 0; k < 3; ++k) columns[3 * row + k] = r * static_cast<float>(m[row][k]);

@@ -1,27 +1,46 @@
 #include "render/grains/grain_store.h"
 
-#include "mixtures/identity.h"
+#include <limits>
 
 namespace scree {
 
 namespace {
 
-/// Rows are the images of the axes (Imath multiplies row vectors from the left).
-Imath::M33d to_matrix(const Imath::Quatd& q)
+double power_of_two_from(double x)
 {
-    const double w = q.r, x = q.v.x, y = q.v.y, z = q.v.z;
-    return {1 - 2 * (y * y + z * z), 2 * (x * y + w * z),     2 * (x * z - w * y),
-            2 * (x * y - w * z),     1 - 2 * (x * x + z * z), 2 * (y * z + w * x),
-            2 * (x * z + w * y),     2 * (y * z - w * x),     1 - 2 * (x * x + y * y)};
+    int exponent = 0;
+    std::frexp(x, &exponent);
+    return std::ldexp(1, exponent);
 }
 
 } // namespace
 
-Imath::M33d GrainStore::rotation(uint32_t grain) const
+FloatMargin::FloatMargin(double extent, double least, double largest)
 {
-    if (orientation.empty()) return to_matrix(rotation_of_id(id(grain)));
-    const Imath::Quatf& q = orientation[grain - analytic_count];
-    return to_matrix(Imath::Quatd(q.r, q.v.x, q.v.y, q.v.z));
+    // A ray's start and direction are rounded to float (2^-24), and so is each of some ten steps between them and the
+    // squared distance of the line from the centre; start and centre are within four extents.
+    const double error = 0x1p-19 * power_of_two_from(extent);
+    // Wider than 2^-9 of a radius would be waste: spheres below 2^-10 of the extent are met less surely at their rim.
+    ulps = static_cast<uint32_t>(std::min(0x1p14, std::ceil(error / least * 0x1p24)));
+    const double wider = largest * ulps * 0x1p-23;
+    // The near faces of a sphere and of a wider one are at most this far apart along any line that meets both. As a power of two
+    // it is hardly ever different for a fill and for the list of its spheres.
+    step_back = power_of_two_from(std::sqrt(2 * largest * wider + wider * wider) + error);
+}
+
+void GrainStore::widen()
+{
+    if (size() == 0) return;
+    double extent = 1, least = std::numeric_limits<double>::infinity(), largest = 0;
+    for (uint32_t i = 0; i < size(); ++i) {
+        const Sphere& s = spheres[i];
+        const double r = s.r;
+        extent = std::max({extent, std::abs(double{s.x}) + r, std::abs(double{s.y}) + r, std::abs(double{s.z}) + r});
+        least = std::min(least, r);
+        largest = std::max(largest, r);
+    }
+    margin = FloatMargin(extent, least, largest);
+    for (uint32_t i = 0; i < size(); ++i) spheres[i].r = margin.widen(spheres[i].r);
 }
 
 } // namespace scree

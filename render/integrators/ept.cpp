@@ -6,8 +6,6 @@ namespace scree {
 
 namespace {
 
-constexpr uint32_t outside = std::numeric_limits<uint32_t>::max();
-
 /// Power heuristic for two strategies of one sample each.
 double mis_weight(double p, double other) { return p * p / (p * p + other * other); }
 
@@ -25,7 +23,7 @@ public:
         bool alive = true;
         while (alive) {
             const V3d start = o_, direction = d_;
-            const bool inside = grain_ != outside;
+            const bool inside = is_inside();
             const Hit hit = inside ? tracer_.intersect_inside(grain_, o_, d_, from_) : tracer_.intersect(o_, d_, from_);
             ++result_.segments;
             if (result_.segments % 65536 == 0 && options_.stop && options_.stop()) {
@@ -39,13 +37,15 @@ public:
     }
 
 private:
+    bool is_inside() const { return grain_.kind == HitKind::grain; }
+
     /// One vertex; false when the path ends there.
     bool handle(const Hit& hit)
     {
         if (hit.place.kind == HitKind::none) {
-            if (grain_ != outside) { // lost between two triangles: go on as if the interface were not there
+            if (is_inside()) { // lost between two triangles: go on as if the interface were not there
                 ++result_.leaks;
-                grain_ = outside;
+                grain_ = {};
                 from_ = {};
                 specular_ = true; // no light was sampled for this way
                 return true;
@@ -53,7 +53,7 @@ private:
             add_infinite_lights();
             return false;
         }
-        if (const Material* medium = grain_ != outside ? &world_.material_of(grain_) : surrounding_) {
+        if (const Material* medium = is_inside() ? &material_of(grain_) : surrounding_) {
             weight_ *= transmittance(*medium, hit.t);
         }
         if (hit.place.kind == HitKind::light) {
@@ -66,7 +66,7 @@ private:
         }
         ++depth_;
         const bool on_grain = hit.place.kind == HitKind::grain;
-        const Material& material = on_grain ? world_.material_of(hit.place.index) : world_.surfaces[hit.place.index].material;
+        const Material& material = on_grain ? material_of(hit.place) : world_.surfaces[hit.place.index].material;
         const Frame frame(hit.normal);
         const V3d wo = frame.to_local(-d_);
         if (result_.segments == 1) note_first(hit, material);
@@ -80,7 +80,7 @@ private:
         if (!survives()) return false;
 
         if (material.transmits()) {
-            if (on_grain) grain_ = sample.wi.z < 0 ? hit.place.index : outside;
+            if (on_grain) grain_ = sample.wi.z < 0 ? hit.place : Place{};
             else surrounding_ = sample.wi.z < 0 ? &material : nullptr;
         }
         o_ = hit.point;
@@ -102,6 +102,9 @@ private:
         return true;
     }
 
+    static uint32_t light_of(const Hit& hit) { return static_cast<uint32_t>(hit.place.index); }
+    const Material& material_of(const Place& grain) const { return world_.types[grain.type].material; }
+
     static C3f transmittance(const Material& medium, double length)
     {
         return is_black(medium.absorption) ? C3f(1) : exp(medium.absorption * static_cast<float>(-length));
@@ -115,8 +118,8 @@ private:
         first.normal = V3f(hit.normal);
         first.depth = hit.t;
         if (hit.place.kind == HitKind::grain) {
-            first.type = world_.grains.type_codes[hit.place.index];
-            first.id = world_.grains.id(hit.place.index);
+            first.type = hit.place.type;
+            first.id = world_.id(hit.place.index);
         }
     }
 
@@ -127,7 +130,7 @@ private:
         if (!light.valid) return;
         const V3d wi = frame.to_local(light.direction);
         // What leads into a grain (or stays in it) is cut off by its own interface.
-        const bool leads_inside = hit.place.kind == HitKind::grain ? material.transmits() && wi.z <= 0 : grain_ != outside;
+        const bool leads_inside = hit.place.kind == HitKind::grain ? material.transmits() && wi.z <= 0 : is_inside();
         if (leads_inside) return;
         const C3f f = eval_bsdf(material, wo, wi, sampler_);
         if (is_black(f)) return;
@@ -162,8 +165,8 @@ private:
 
     void add_light(const Hit& hit)
     {
-        const double pdf = specular_ ? 0 : world_.lights.pdf(hit.place.index, o_, d_, hit.t);
-        result_.radiance += weight_ * world_.lights.emitted(hit.place.index) * static_cast<float>(found_weight(pdf));
+        const double pdf = specular_ ? 0 : world_.lights.pdf(light_of(hit), o_, d_, hit.t);
+        result_.radiance += weight_ * world_.lights.emitted(light_of(hit)) * static_cast<float>(found_weight(pdf));
     }
 
     const World& world_;
@@ -173,7 +176,7 @@ private:
 
     V3d o_, d_;
     Place from_;
-    uint32_t grain_ = outside; // that the path is inside of
+    Place grain_;              // that the path is inside of
     const Material* surrounding_ = nullptr; // of the dielectric surface the path is inside of, outside grains
     C3f weight_{1};
     bool specular_ = true;     // the last scattering (or the camera) could not have sampled lights

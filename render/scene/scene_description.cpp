@@ -186,53 +186,70 @@ void check_type_name(const std::string& name, const std::vector<GrainTypeDescrip
 }
 
 /// by_type: whether each sphere must say its type, as the mixture is explicit and has no map of its own.
+/// The map from type numbers of a dump or tile to grain types.
+void read_file_types(JsonObject& object, const std::vector<GrainTypeDescription>& types, bool by_type, AssemblyDescription& assembly)
+{
+    if (const auto map = object.find("types")) {
+        JsonObject entries = map->object();
+        for (const std::string& key : entries.take_keys()) {
+            const JsonValue name = entries.require(key);
+            check_type_name(name.string(), types, name);
+            assembly.types[read_type_number(key, *map)] = name.string();
+        }
+        if (assembly.types.empty()) map->fail("a grain type for at least one type of the file");
+    } else if (by_type && types.size() != 1) {
+        object.value().fail("the key 'types', which maps the file's types to grain types", "e.g. \"types\": {\"1\": \"" + types[0].name + "\"}");
+    }
+}
+
+void read_dump_radius(const JsonValue& radius, AssemblyDescription& assembly)
+{
+    if (radius.is_number()) {
+        assembly.radius = read_positive(radius);
+        return;
+    }
+    if (!radius.is_object()) radius.fail("a number above 0, or an object of radii by type of the dump");
+    JsonObject entries = radius.object();
+    for (const std::string& key : entries.take_keys()) {
+        assembly.radius_of_type[read_type_number(key, radius)] = read_positive(entries.require(key));
+    }
+}
+
+void read_listed_spheres(const JsonValue& list, const std::vector<GrainTypeDescription>& types, bool by_type, AssemblyDescription& assembly)
+{
+    for (const JsonValue& item : list.array()) {
+        JsonObject entry = item.object();
+        AssemblyDescription::Sphere sphere{entry.require("center").vec3(), entry.require("radius").number(0, largest), ""};
+        if (const auto type = entry.find("type")) {
+            sphere.type = type->string();
+            check_type_name(sphere.type, types, *type);
+        } else if (by_type && types.size() != 1) {
+            item.fail("the key 'type', as there are several grain types");
+        }
+        entry.done();
+        assembly.spheres.push_back(sphere);
+    }
+}
+
 AssemblyDescription read_assembly(const JsonValue& json, const std::vector<GrainTypeDescription>& types, bool by_type)
 {
     JsonObject object = json.object();
     AssemblyDescription assembly;
     assembly.place = json.place();
     if (const auto dump = object.find("dump")) {
-        const std::filesystem::path pattern = dump->path();
-        assembly.dump = pattern.string();
-        if (const auto map = object.find("types")) {
-            JsonObject entries = map->object();
-            for (const std::string& key : entries.take_keys()) {
-                const JsonValue name = entries.require(key);
-                check_type_name(name.string(), types, name);
-                assembly.types[read_type_number(key, *map)] = name.string();
-            }
-            if (assembly.types.empty()) map->fail("a grain type for at least one type of the dump");
-        } else if (by_type && types.size() != 1) {
-            json.fail("the key 'types', which maps the dump's types to grain types", "e.g. \"types\": {\"1\": \"" + types[0].name + "\"}");
-        }
-        if (const auto radius = object.find("radius")) {
-            if (radius->is_number()) {
-                assembly.radius = read_positive(*radius);
-            } else {
-                if (!radius->is_object()) radius->fail("a number above 0, or an object of radii by type of the dump");
-                JsonObject entries = radius->object();
-                for (const std::string& key : entries.take_keys()) {
-                    assembly.radius_of_type[read_type_number(key, *radius)] = read_positive(entries.require(key));
-                }
-            }
-        }
+        assembly.dump = dump->path().string();
+        read_file_types(object, types, by_type, assembly);
+        if (const auto radius = object.find("radius")) read_dump_radius(*radius, assembly);
     } else if (const auto spheres = object.find("spheres")) {
-        for (const JsonValue& item : spheres->array()) {
-            JsonObject entry = item.object();
-            AssemblyDescription::Sphere sphere{entry.require("center").vec3(), entry.require("radius").number(0, largest), ""};
-            if (const auto type = entry.find("type")) {
-                sphere.type = type->string();
-                check_type_name(sphere.type, types, *type);
-            } else if (by_type && types.size() != 1) {
-                item.fail("the key 'type', as there are several grain types");
-            }
-            entry.done();
-            assembly.spheres.push_back(sphere);
-        }
-    } else if (object.find("fill")) {
-        json.fail("\"dump\" or \"spheres\"", "this version does not fill meshes yet");
+        read_listed_spheres(*spheres, types, by_type, assembly);
+    } else if (const auto mesh = object.find("fill")) {
+        AssemblyDescription::Fill fill{mesh->path(), object.require("tile").path(), read_positive(object.require("radius"))};
+        if (const auto seed = object.find("seed")) fill.seed = static_cast<uint64_t>(seed->integer(0, std::numeric_limits<int64_t>::max()));
+        if (const auto repair = object.find("repair")) fill.repair = repair->boolean();
+        read_file_types(object, types, by_type, assembly);
+        assembly.fill = fill;
     } else {
-        json.fail("an object with \"dump\" or \"spheres\"");
+        json.fail("an object with \"dump\", \"fill\" or \"spheres\"");
     }
     object.done();
     return assembly;

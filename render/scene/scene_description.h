@@ -53,15 +53,23 @@ struct GrainTypeDescription {
     std::string place;
 };
 
-/// Where the grains come from: a dump, or spheres written out in the scene.
+/// Where the grains come from: a dump, a mesh filled with a tile, or spheres written out in the scene.
 struct AssemblyDescription {
     struct Sphere {
         V3d center;
         double radius;
         std::string type; ///< name of a grain type; empty: the only one
     };
-    std::string dump;                               ///< file, glob or printf pattern; empty when spheres are given
-    std::map<int32_t, std::string> types;           ///< the dump's type number -> name of a grain type
+    /// A mesh full of the spheres of a repeated tile.
+    struct Fill {
+        std::filesystem::path mesh, tile;
+        double radius = 0; ///< mean radius of the spheres
+        uint64_t seed = 0; ///< of which variant of the tile stands where
+        bool repair = false;
+    };
+    std::string dump;                               ///< file, glob or printf pattern (or .vdb of points); else empty
+    std::optional<Fill> fill;
+    std::map<int32_t, std::string> types;           ///< the dump's or tile's type number -> name of a grain type
     std::optional<double> radius;                   ///< for dumps without a radius column
     std::map<int32_t, double> radius_of_type;
     std::vector<Sphere> spheres;

@@ -6,18 +6,17 @@
 
 namespace scree {
 
-namespace {
-
-/// The distance at which o + t d enters the sphere; false when it misses, or o is inside already.
-bool enters_sphere(const V3d& centre, double radius, const V3d& o, const V3d& d, double& t)
+bool enters_sphere(const GrainSphere& sphere, const V3d& o, const V3d& d, double& t)
 {
-    const V3d to = centre - o;
+    const V3d to = sphere.centre - o;
     const double along = to.dot(d);
-    const double disc = radius * radius - (to - along * d).length2();
+    const double disc = sphere.radius * sphere.radius - (to - along * d).length2();
     if (!(disc > 0)) return false;
     t = along - std::sqrt(disc);
     return t > 0;
 }
+
+namespace {
 
 /// A ray in a grain's own frame, in units of its radius.
 struct LocalRay {
@@ -26,8 +25,8 @@ struct LocalRay {
     double radius;
     double rounding; // of o: a few of 2^-53 of what it was computed from
 
-    LocalRay(const GrainStore& grains, uint32_t grain, const V3d& world_o, const V3d& world_d)
-        : to_world(grains.rotation(grain)), centre(grains.centre(grain)), radius(grains.radius(grain))
+    LocalRay(const World& world, const Place& grain, const GrainSphere& sphere, const V3d& world_o, const V3d& world_d)
+        : to_world(world.rotation(grain.index)), centre(sphere.centre), radius(sphere.radius)
     {
         const Imath::M33d to_grain = to_world.transposed();
         o = (world_o - centre) * to_grain / radius;
@@ -61,13 +60,13 @@ Hit make_hit(const TracerQuery& query)
     switch (place.kind) {
     case HitKind::none: break;
     case HitKind::grain: {
-        const V3d centre = world.grains.centre(place.index);
+        const GrainSphere sphere = world.sphere(place.index);
         if (place.triangle == no_triangle) {
-            hit.normal = (hit.point - centre).normalized();
-            hit.point = centre + world.grains.radius(place.index) * hit.normal;
+            hit.normal = (hit.point - sphere.centre).normalized();
+            hit.point = sphere.centre + sphere.radius * hit.normal;
         } else {
-            const LocalRay local(world.grains, place.index, query.o, query.d);
-            const Exemplar& exemplar = *world.types[world.grains.type_codes[place.index]].exemplar;
+            const LocalRay local(world, place, sphere, query.o, query.d);
+            const Exemplar& exemplar = *world.types[place.type].exemplar;
             hit.point = local.world_point(exemplar.point({0, place.triangle, query.u, query.v}));
             hit.normal = exemplar.normal(place.triangle) * local.to_world;
         }
@@ -75,7 +74,9 @@ Hit make_hit(const TracerQuery& query)
     }
     case HitKind::surface: {
         const auto c = corners(world.surfaces[place.index], place.triangle);
-        hit.point = c[0] + static_cast<double>(query.u) * (c[1] - c[0]) + static_cast<double>(query.v) * (c[2] - c[0]);
+        const PlaneHit plane = meet_plane(c, query.o, query.d);
+        const double u = std::clamp(plane.u, 0.0, 1.0), v = std::clamp(plane.v, 0.0, 1 - u);
+        hit.point = c[0] + u * (c[1] - c[0]) + v * (c[2] - c[0]);
         hit.normal = unit_normal(c);
         hit.t = (hit.point - query.o).dot(query.d);
         break;
@@ -91,38 +92,41 @@ Hit make_hit(const TracerQuery& query)
 
 } // namespace
 
-bool TracerQuery::offer_mesh(uint32_t grain)
+bool TracerQuery::offer(const Place& what, double t)
+{
+    if (!(t < best)) return false;
+    best = t;
+    place = what;
+    return true;
+}
+
+bool TracerQuery::offer_mesh(const Place& grain, const GrainSphere& sphere)
 {
     const World& world = tracer->world;
-    LocalRay local(world.grains, grain, o, d);
+    LocalRay local(world, grain, sphere, o, d);
     // Start at the unit sphere, where a float is precise.
     double entry = 0;
-    if (local.o.length2() > 1 && !enters_sphere(V3d(0), 1, local.o, local.d, entry)) return false;
+    if (local.o.length2() > 1 && !enters_sphere({V3d(0), 1}, local.o, local.d, entry)) return false;
     const double end = std::min(best / local.radius - entry, 2.5); // no chord of the unit sphere is longer than 2
     if (!(end > 0)) return false;
-    const bool own = from.kind == HitKind::grain && from.index == grain;
+    const bool own = from.kind == HitKind::grain && from.index == grain.index;
     ExemplarHit hit;
-    const Exemplar& exemplar = *world.types[world.grains.type_codes[grain]].exemplar;
+    const Exemplar& exemplar = *world.types[grain.type].exemplar;
     if (!exemplar.intersect(local.o + entry * local.d, local.d, local.rounding, end, Facing::entering, own ? from.triangle : no_triangle, hit)) {
         return false;
     }
-    const double t = (entry + hit.t) * local.radius;
-    if (!(t < best)) return false;
-    best = t;
-    place = {HitKind::grain, grain, hit.triangle};
+    if (!offer({HitKind::grain, grain.index, hit.triangle, grain.type}, (entry + hit.t) * local.radius)) return false;
     u = hit.u;
     v = hit.v;
     return true;
 }
 
-bool TracerQuery::is_mesh_due(uint32_t grain, const RTCHit& hit) const
+bool TracerQuery::is_mesh_due(const GrainSphere& sphere, const RTCHit& hit) const
 {
-    const V3d centre = tracer->world.grains.centre(grain);
-    const double radius = tracer->world.grains.radius(grain);
     if (hit.Ng_x * d.x + hit.Ng_y * d.y + hit.Ng_z * d.z < 0) return true;
     // The far face is proposed alone when the ray starts inside, or so near outside that float does not tell.
-    const double distance = (o - centre).length();
-    return distance - radius <= 0x1p-20 * (distance + o.length());
+    const double distance = (o - sphere.centre).length();
+    return distance - sphere.radius <= 0x1p-20 * (distance + o.length());
 }
 
 void tracer_filter(const RTCFilterFunctionNArguments* args)
@@ -138,15 +142,17 @@ void tracer_filter(const RTCFilterFunctionNArguments* args)
     Place place;
     double t;
     if (hit->geomID == Tracer::Impl::analytic_id) {
-        place = {HitKind::grain, hit->primID};
+        place = {HitKind::grain, hit->primID, no_triangle, world.grains.type_codes[hit->primID]};
         // A convex grain is not met again by the ray that leaves it.
         if (query.from.kind == HitKind::grain && query.from.index == place.index) return;
-        if (!enters_sphere(world.grains.centre(place.index), world.grains.radius(place.index), query.o, query.d, t)) return;
+        if (!enters_sphere(world.sphere(place.index), query.o, query.d, t)) return;
     } else if (hit->geomID == Tracer::Impl::mesh_id) {
         const uint32_t grain = hit->primID + world.grains.analytic_count;
+        const GrainSphere sphere = world.sphere(grain);
         // The exemplar lies at or beyond the sphere's near face: the ray's end moves out from there, but never beyond the
         // nearest hit known.
-        if (!query.is_mesh_due(grain, *hit) || !query.offer_mesh(grain)) return;
+        if (!query.is_mesh_due(sphere, *hit)) return;
+        if (!query.offer_mesh({HitKind::grain, grain, no_triangle, world.grains.type_codes[grain]}, sphere)) return;
         ray->tfar = query.embree_end();
         args->valid[0] = -1;
         return;
@@ -154,24 +160,25 @@ void tracer_filter(const RTCFilterFunctionNArguments* args)
         place = {HitKind::surface, hit->geomID - Tracer::Impl::first_surface, hit->primID};
         if (query.from.kind == HitKind::surface && query.from.index == place.index && query.from.triangle == place.triangle) return;
         const auto c = corners(world.surfaces[place.index], place.triangle);
-        t = ray->tfar + query.advanced;
+        // Not Embree's t, which depends on where its ray starts.
+        t = meet_plane(c, query.o, query.d).t;
+        if (!std::isfinite(t)) return;
         // Within what rounding to float may have moved the start, a neighbour of what the ray leaves may seem to be met.
         const double rounding = 0x1p-20 * (query.o.length() + c[0].length());
-        if (query.from.kind != HitKind::none && t <= rounding && !meets_triangle(c, query.o, query.d, 0x1p-28 * rounding)) return;
+        const double nearer = std::min<double>(t, ray->tfar + query.advanced);
+        if ((query.from.kind != HitKind::none || t < 0) && nearer <= rounding && !meets_triangle(c, query.o, query.d, 0x1p-28 * rounding)) return;
     } else {
         place = {HitKind::light, tracer.light_of(hit->geomID)};
         if (place.index == query.target) return;
         const Light& light = world.lights.lights()[place.index];
         if (light.kind == LightKind::sphere) {
-            if (!enters_sphere(light.center, light.radius, query.o, query.d, t)) return;
+            if (!enters_sphere({light.center, light.radius}, query.o, query.d, t)) return;
         } else {
             t = (light.corner - query.o).dot(light.normal) / query.d.dot(light.normal);
             if (!(t > 0)) return;
         }
     }
-    if (!(t < query.best)) return;
-    query.best = t;
-    query.place = place;
+    if (!query.offer(place, t)) return;
     query.u = hit->u;
     query.v = hit->v;
     ray->tfar = query.embree_end();
@@ -190,16 +197,18 @@ double Tracer::scene_radius() const { return impl_->radius; }
 
 namespace {
 
-/// Moves the start of a ray from far away to near the scene's sphere, where a float is precise; false when it misses.
+/// Moves the start of a ray from far away to near the scene's sphere, where a float is precise, and by the step back that
+/// widened spheres need; false when it misses.
 bool approach(const Tracer::Impl& tracer, TracerQuery& query)
 {
     const double radius = tracer.radius;
     query.reach = tracer.mesh_reach;
+    query.advanced = -tracer.world.margin().step_back;
     if (query.o.length2() <= 4 * radius * radius) return true;
     query.reach = 0; // no sphere is around a start this far out
     double t = 0;
-    if (!enters_sphere(V3d(0), radius * (1 + 0x1p-10), query.o, query.d, t)) return false;
-    query.advanced = t;
+    if (!enters_sphere({V3d(0), radius * (1 + 0x1p-10)}, query.o, query.d, t)) return false;
+    query.advanced += t;
     return true;
 }
 
@@ -212,31 +221,33 @@ Hit Tracer::intersect(const V3d& o, const V3d& d, const Place& from) const
     const V3d start = float_start(impl_->world, o, d, from) + query.advanced * d;
     RTCRayHit ray = make_ray(start, d, query.embree_end());
     rtcIntersect1(impl_->scene, &query.context, &ray);
+    if (impl_->fill) impl_->fill->find_nearest(query);
     return make_hit(query);
 }
 
-Hit Tracer::intersect_inside(uint32_t grain, const V3d& o, const V3d& d, const Place& from) const
+Hit Tracer::intersect_inside(const Place& grain, const V3d& o, const V3d& d, const Place& from) const
 {
     const World& world = impl_->world;
     TracerQuery query(*impl_, o, d, from);
-    const bool on_it = from.kind == HitKind::grain && from.index == grain;
-    if (const auto& exemplar = world.types[world.grains.type_codes[grain]].exemplar) {
-        const LocalRay local(world.grains, grain, o, d);
+    const bool on_it = from.kind == HitKind::grain && from.index == grain.index;
+    const GrainSphere sphere = world.sphere(grain.index);
+    if (const auto& exemplar = world.types[grain.type].exemplar) {
+        const LocalRay local(world, grain, sphere, o, d);
         ExemplarHit hit;
         if (exemplar->intersect(local.o, local.d, local.rounding, 2.5, Facing::leaving, on_it ? from.triangle : no_triangle, hit)) {
             query.best = hit.t * local.radius;
-            query.place = {HitKind::grain, grain, hit.triangle};
+            query.place = {HitKind::grain, grain.index, hit.triangle, grain.type};
             query.u = hit.u;
             query.v = hit.v;
         } else {
             return {};
         }
     } else {
-        const V3d to = world.grains.centre(grain) - o;
-        const double along = to.dot(d), r = world.grains.radius(grain);
+        const V3d to = sphere.centre - o;
+        const double along = to.dot(d), r = sphere.radius;
         // From a point on the sphere the chord is 2 along, without cancellation.
         query.best = on_it ? 2 * along : along + std::sqrt(std::max(0.0, r * r - (to - along * d).length2()));
-        query.place = {HitKind::grain, grain};
+        query.place = {HitKind::grain, grain.index, no_triangle, grain.type};
     }
     if (impl_->surface_scene) {
         RTCRayHit ray = make_ray(float_start(world, o, d, from), d, query.best);
@@ -254,6 +265,7 @@ bool Tracer::occluded(const V3d& o, const V3d& d, double tmax, const Place& from
     if (tmax <= query.advanced) return false;
     RTCRayHit ray = make_ray(float_start(impl_->world, o, d, from) + query.advanced * d, d, query.embree_end());
     rtcOccluded1(impl_->scene, &query.context, &ray.ray);
+    if (impl_->fill && query.place.kind == HitKind::none) impl_->fill->find_any(query);
     return query.place.kind != HitKind::none;
 }
 

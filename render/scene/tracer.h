@@ -14,8 +14,9 @@ enum class HitKind : uint8_t { none, grain, surface, light };
 /// What a ray met, or what it starts on: a grain (with the triangle of its mesh), a surface's triangle, or a light.
 struct Place {
     HitKind kind = HitKind::none;
-    uint32_t index = 0;               ///< grain, surface or light
+    uint64_t index = 0;               ///< grain, surface or light
     uint32_t triangle = no_triangle;  ///< of a mesh
+    uint8_t type = 0;                 ///< of a grain
 };
 
 struct Hit {
@@ -39,7 +40,7 @@ public:
     /// Nearest thing from outside all grains; kind none if there is none.
     Hit intersect(const V3d& o, const V3d& d, const Place& from) const;
     /// Nearest way out of `grain` from inside it, or a surface standing in it. Kind none: lost to rounding, treat as outside.
-    Hit intersect_inside(uint32_t grain, const V3d& o, const V3d& d, const Place& from) const;
+    Hit intersect_inside(const Place& grain, const V3d& o, const V3d& d, const Place& from) const;
     /// Whether anything stands between o and o + tmax d; `target` is the light aimed at, which does not count.
     bool occluded(const V3d& o, const V3d& d, double tmax, const Place& from, uint32_t target) const;
 

@@ -18,7 +18,7 @@ Tracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const World& wor
 
     const bool inside_possible = std::any_of(world.types.begin(), world.types.end(),
                                              [](const GrainType& type) { return type.material.transmits(); });
-    if (inside_possible && grains.size() > 0 && !world.surfaces.empty()) {
+    if (inside_possible && world.has_grains() && !world.surfaces.empty()) {
         surface_scene = rtcNewScene(device->get());
         rtcSetSceneFlags(surface_scene, RTC_SCENE_FLAG_ROBUST);
     }
@@ -46,10 +46,16 @@ Tracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const World& wor
     RTCBounds bounds;
     rtcGetSceneBounds(scene, &bounds);
     const auto farthest = [](float lo, float hi) { return std::max(std::abs(double{lo}), std::abs(double{hi})); };
+    V3d far(0);
     if (bounds.lower_x <= bounds.upper_x) {
-        radius = V3d(farthest(bounds.lower_x, bounds.upper_x), farthest(bounds.lower_y, bounds.upper_y),
-                     farthest(bounds.lower_z, bounds.upper_z)).length();
+        far = V3d(farthest(bounds.lower_x, bounds.upper_x), farthest(bounds.lower_y, bounds.upper_y), farthest(bounds.lower_z, bounds.upper_z));
     }
+    if (world.domain) {
+        const V3d lo = world.domain->min, hi = world.domain->max;
+        for (int axis = 0; axis < 3; ++axis) far[axis] = std::max({far[axis], std::abs(lo[axis]), std::abs(hi[axis])});
+    }
+    radius = far.length();
+    if (world.fill) fill = std::make_unique<FillTracer>(device, world);
 }
 
 Tracer::Impl::~Impl()

@@ -2,6 +2,7 @@
 
 // Private to the tracer: the only header of ours that sees Embree.
 
+#include "render/scene/fill_tracer.h"
 #include "render/scene/tracer.h"
 
 #include <embree3/rtcore.h>
@@ -28,6 +29,7 @@ struct Tracer::Impl {
     std::vector<uint32_t> light_of_id;  // geometry id - first_light -> light
     double mesh_reach = 0;              // the largest diameter of a mesh grain: how far on a sphere around a ray's start ends
     double radius = 0;
+    std::unique_ptr<const FillTracer> fill; // where the grains are those of a fill: the scene then has surfaces and lights
 
     Impl(std::shared_ptr<const EmbreeDevice> device, const World& world);
     ~Impl();
@@ -63,11 +65,16 @@ struct TracerQuery {
 
     /// Where Embree's ray may end.
     float embree_end() const { return static_cast<float>(std::max(best - advanced, reach)); }
+    /// Takes what is met at t, if that is nearer than best.
+    bool offer(const Place& what, double t);
     /// Traces the mesh of a grain from o, outside; takes a hit nearer than best.
-    bool offer_mesh(uint32_t grain);
+    bool offer_mesh(const Place& grain, const GrainSphere& sphere);
     /// Whether a mesh grain's sphere, met at Embree's hit, is to be offered: entered there, or left there with o inside.
-    bool is_mesh_due(uint32_t grain, const RTCHit& hit) const;
+    bool is_mesh_due(const GrainSphere& sphere, const RTCHit& hit) const;
 };
+
+/// The distance at which o + t d enters the sphere; false when it misses, or o is inside already.
+bool enters_sphere(const GrainSphere& sphere, const V3d& o, const V3d& d, double& t);
 
 /// Embree filter of every geometry, for nearest and for any hit: lets a candidate through only when it is really met.
 void tracer_filter(const RTCFilterFunctionNArguments* args);

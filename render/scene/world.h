@@ -1,32 +1,21 @@
 #pragma once
 
 #include "render/grains/exemplar.h"
+#include "render/grains/grain_fill.h"
 #include "render/grains/grain_store.h"
 #include "render/lights/light.h"
 #include "render/materials/material.h"
 #include "render/math.h"
+#include "render/scene/render_space.h"
+
+#include <Imath/ImathBox.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace scree {
-
-/// Where and how large the scene is: render coordinates are (x - origin) 2^-exponent, so that the grains fill about
-/// -1..1. Powers of two and a centring in double make a scene scaled by 2^k, or far from zero, the same numbers.
-struct RenderSpace {
-    V3d origin{0};
-    int exponent = 0;
-
-    V3d point(const V3d& world) const { return V3d(length(world.x - origin.x), length(world.y - origin.y), length(world.z - origin.z)); }
-    V3d vector(const V3d& world) const { return V3d(length(world.x), length(world.y), length(world.z)); }
-    double length(double world) const { return std::ldexp(world, -exponent); }
-    double world_length(double render) const { return std::ldexp(render, exponent); }
-    V3d world_point(const V3d& p) const
-    {
-        return V3d(world_length(p.x), world_length(p.y), world_length(p.z)) + origin;
-    }
-};
 
 /// A grain type ready for tracing: without an exemplar its shape is the bounding sphere itself.
 struct GrainType {
@@ -44,14 +33,27 @@ struct Surface {
 };
 
 /// Everything light can meet, in render coordinates.
+///
+/// Its grains are listed (a grain is a place in the list) or they are those of a fill (a grain is an id).
 struct World {
     RenderSpace space;
     GrainStore grains;
+    std::shared_ptr<const GrainFill> fill;
+    std::optional<Imath::Box3d> domain; ///< what the grains were packed into, where that is known: it bounds them
     std::vector<GrainType> types;
     std::vector<Surface> surfaces;
     LightSet lights;
 
-    const Material& material_of(uint32_t grain) const { return types[grains.type_codes[grain]].material; }
+    bool has_grains() const { return fill || grains.size() > 0; }
+    GrainSphere sphere(uint64_t grain) const
+    {
+        return fill ? fill->sphere(grain) : GrainSphere{grains.centre(grain), grains.radius(grain)};
+    }
+    uint64_t id(uint64_t grain) const { return fill ? grain : grains.id(grain); }
+    uint8_t type(uint64_t grain) const { return fill ? fill->type(grain) : grains.type_codes[grain]; }
+    /// Rotation of a grain from its own frame to the world's.
+    Imath::M33d rotation(uint64_t grain) const;
+    const FloatMargin& margin() const { return fill ? fill->margin() : grains.margin; }
 };
 
 } // namespace scree

@@ -1,17 +1,19 @@
 #include "render/scene/world_builder.h"
 
 #include "ingest/support/error.h"
+#include "ingest/support/text.h"
 #include "ingest/triangle_mesh.h"
-#include "mixtures/hash.h"
+#include "ingest/vdb_points.h"
 #include "mixtures/mixture_series.h"
+#include "render/scene/content_hash.h"
+#include "render/scene/fill_builder.h"
+#include "render/scene/light_builder.h"
 #include "render/lights/environment_file.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cstring>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -20,34 +22,18 @@ namespace scree {
 
 namespace {
 
-double seconds_since(std::chrono::steady_clock::time_point start)
+/// The box as a space: its middle, and its size in powers of two.
+RenderSpace space_of(const Imath::Box3d& box)
 {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    RenderSpace space;
+    space.origin = 0.5 * box.min + 0.5 * box.max;
+    const V3d half = 0.5 * (box.max - box.min);
+    const double size = std::max({half.x, half.y, half.z});
+    if (size > 0) std::frexp(size, &space.exponent);
+    return space;
 }
 
-/// Hash of bytes, eight at a time.
-uint64_t hash_bytes(const void* data, size_t bytes, uint64_t seed)
-{
-    const auto* p = static_cast<const unsigned char*>(data);
-    uint64_t hash = mix64(seed + bytes);
-    for (size_t i = 0; i < bytes; i += 8) {
-        uint64_t word = 0;
-        std::memcpy(&word, p + i, std::min<size_t>(8, bytes - i));
-        hash = mix64(hash ^ word) + 0x9e3779b97f4a7c15ull;
-    }
-    return hash;
-}
-
-template <class T>
-uint64_t hash_vector(const std::vector<T>& v, uint64_t seed)
-{
-    return hash_bytes(v.data(), v.size() * sizeof(T), seed);
-}
-
-uint64_t hash_mesh(const TriangleMesh& mesh, uint64_t seed)
-{
-    return hash_vector(mesh.triangles, hash_vector(mesh.positions, seed));
-}
+bool is_points_file(const std::filesystem::path& path) { return lower_case(path.extension().string()) == ".vdb"; }
 
 /// Bounds of points, and through `space` the middle and size of the scene in powers of two.
 struct Bounds {
@@ -63,13 +49,7 @@ struct Bounds {
     bool empty() const { return !(lo.x <= hi.x); }
     RenderSpace space() const
     {
-        RenderSpace space;
-        if (empty()) return space;
-        space.origin = 0.5 * (lo + hi);
-        const V3d half = 0.5 * (hi - lo);
-        const double size = std::max({half.x, half.y, half.z});
-        if (size > 0) std::frexp(size, &space.exponent);
-        return space;
+        return empty() ? RenderSpace() : space_of({lo, hi});
     }
 };
 
@@ -98,6 +78,13 @@ V3d scene_origin(const std::vector<V3d>& points, const Bounds& bounds)
     return reach > far * width && width > 0 ? median : middle;
 }
 
+/// Centres the scene on what its grains were packed into, so that the fill and the list of its spheres are the same numbers.
+void set_domain(const Imath::Box3d& domain, World& world)
+{
+    world.space = space_of(domain);
+    world.domain = Imath::Box3d(world.space.point(domain.min), world.space.point(domain.max));
+}
+
 /// The scene's spheres, whatever they come from, with the grain type of each.
 struct Spheres {
     ParticleFrame frame;
@@ -111,6 +98,7 @@ struct WorldBuilder::Impl {
     std::shared_ptr<EmbreeDevice> device = std::make_shared<EmbreeDevice>();
     std::optional<DumpSeries> series;
     std::optional<MixtureSeries> mixtures;
+    std::optional<BuiltFill> fill;
     std::map<std::string, std::pair<std::shared_ptr<const Exemplar>, uint64_t>> exemplars; // by grain type, with the mesh's hash
     std::vector<TriangleMesh> surfaces;
     std::map<size_t, std::shared_ptr<const EnvironmentMap>> maps; // by light
@@ -120,18 +108,19 @@ struct WorldBuilder::Impl {
 
     Spheres read_spheres(size_t frame, const Progress& progress);
     GrainStore make_grains(Spheres spheres, World& world);
+    void make_fill(World& world);
     void make_types(const std::vector<uint8_t>& used, World& world);
     TriangleMesh read_surface(const SurfaceDescription& surface) const;
     void make_surfaces(World& world);
     LightSet make_lights(const World& world);
-    Light make_light(size_t index, const RenderSpace& space);
+    std::shared_ptr<const EnvironmentMap> read_map(size_t light);
     std::optional<MixtureSeries> make_mixtures() const;
     ParticleFrame read_dump(size_t frame, const Progress& progress) const;
 };
 
 std::optional<MixtureSeries> WorldBuilder::Impl::make_mixtures() const
 {
-    if (!scene.assembly) return std::nullopt;
+    if (!scene.assembly || scene.assembly->fill) return std::nullopt;
     std::vector<std::string> names;
     for (const GrainTypeDescription& type : scene.types) names.push_back(type.name);
     std::map<int32_t, std::string> file_types = scene.assembly->types;
@@ -150,7 +139,9 @@ Spheres WorldBuilder::Impl::read_spheres(size_t number, const Progress& progress
 {
     Spheres spheres;
     ParticleFrame& frame = spheres.frame;
-    if (series) {
+    if (is_points_file(scene.assembly->dump)) {
+        frame = read_vdb_points(scene.assembly->dump);
+    } else if (series) {
         frame = read_dump(number, progress);
         if (const auto deciding = mixtures->deciding_frame(series->frame_count()); deciding && !mixtures->decided()) {
             mixtures->decide(*deciding == number ? frame : read_dump(*deciding, progress));
@@ -180,8 +171,12 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, World& world)
     for (size_t i = 0; i < frame.size(); ++i) {
         if (frame.radius[i] > 0) bounds.extend(frame.position[i], frame.radius[i]);
     }
-    world.space = bounds.space();
-    world.space.origin = scene_origin(frame.position, bounds);
+    if (frame.domain) {
+        set_domain(*frame.domain, world);
+    } else {
+        world.space = bounds.space();
+        world.space.origin = scene_origin(frame.position, bounds);
+    }
 
     std::vector<uint8_t> used(scene.types.size(), 0);
     for (size_t i = 0; i < frame.size(); ++i) used[spheres.types[i]] = 1;
@@ -218,10 +213,25 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, World& world)
         grains.first_id = grains.ids.empty() ? 0 : grains.ids[0];
         grains.ids = {};
     }
+    grains.widen();
     if (without_size > 0) frame_warnings.push_back(fmt::format("{} grains of radius 0 are left out", without_size));
     hash = hash_vector(grains.type_codes, hash_vector(frame.radius, hash_vector(frame.position, hash_vector(frame.id, hash))));
     hash = hash_vector(frame.orientation, hash);
     return grains;
+}
+
+void WorldBuilder::Impl::make_fill(World& world)
+{
+    if (!fill) fill = build_fill(scene);
+    parts.insert(parts.end(), fill->parts.begin(), fill->parts.end());
+    frame_warnings.insert(frame_warnings.end(), fill->remarks.begin(), fill->remarks.end());
+    const ProceduralFill& spheres = *fill->fill;
+    set_domain(spheres.domain().bounds(), world);
+    world.fill = std::make_shared<GrainFill>(fill->fill, fill->mixture, world.space);
+    make_types(std::vector<uint8_t>(scene.types.size(), 1), world); // any type may be met
+    hash = hash_mesh(spheres.domain().mesh(), hash);
+    hash = hash_vector(spheres.tile().radius, hash_vector(spheres.tile().type, hash));
+    for (const auto& variant : spheres.tile().variants) hash = hash_vector(variant, hash);
 }
 
 void WorldBuilder::Impl::make_types(const std::vector<uint8_t>& used, World& world)
@@ -237,7 +247,7 @@ void WorldBuilder::Impl::make_types(const std::vector<uint8_t>& used, World& wor
             parts.push_back({part, false, "its shape is the bounding sphere itself"});
         } else {
             auto& [exemplar, mesh_hash] = exemplars[type.name];
-            const auto start = std::chrono::steady_clock::now();
+            const Stopwatch watch;
             if (!exemplar) {
                 const TriangleMesh mesh = read_mesh(*type.mesh);
                 auto built = std::make_shared<Exemplar>(*device, mesh, type.mesh->string());
@@ -251,7 +261,7 @@ void WorldBuilder::Impl::make_types(const std::vector<uint8_t>& used, World& wor
             }
             made.exemplar = exemplar;
             hash = mix64(hash ^ mesh_hash);
-            parts.push_back({part, true, fmt::format("{} triangles", exemplar->triangle_count()), seconds_since(start),
+            parts.push_back({part, true, fmt::format("{} triangles", exemplar->triangle_count()), watch.seconds(),
                              exemplar->bytes()});
         }
         world.types.push_back(std::move(made));
@@ -274,11 +284,11 @@ TriangleMesh WorldBuilder::Impl::read_surface(const SurfaceDescription& surface)
 
 void WorldBuilder::Impl::make_surfaces(World& world)
 {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     if (surfaces.empty()) {
         for (const auto& surface : scene.surfaces) surfaces.push_back(read_surface(surface));
     }
-    if (!scene.assembly || world.grains.size() == 0) {
+    if (!world.has_grains()) {
         Bounds bounds;
         for (const auto& mesh : surfaces) {
             for (const V3d& p : mesh.positions) bounds.extend(p);
@@ -300,54 +310,22 @@ void WorldBuilder::Impl::make_surfaces(World& world)
         world.surfaces.push_back(std::move(surface));
     }
     if (surfaces.empty()) parts.push_back({"surfaces", false, "the scene has none"});
-    else parts.push_back({"surfaces", true, fmt::format("{} meshes, {} triangles", surfaces.size(), triangles), seconds_since(start), bytes});
+    else parts.push_back({"surfaces", true, fmt::format("{} meshes, {} triangles", surfaces.size(), triangles), watch.seconds(), bytes});
 }
 
-Light WorldBuilder::Impl::make_light(size_t index, const RenderSpace& space)
+/// The map of an environment light, read once; null for others.
+std::shared_ptr<const EnvironmentMap> WorldBuilder::Impl::read_map(size_t light)
 {
-    using Kind = LightDescription::Kind;
-    const LightDescription& description = scene.lights[index];
-    Light light;
-    light.kind = static_cast<LightKind>(description.kind);
-    light.radiance = description.radiance;
-    switch (description.kind) {
-    case Kind::constant: break;
-    case Kind::environment: {
-        auto& map = maps[index];
-        if (!map) {
-            const auto start = std::chrono::steady_clock::now();
-            map = std::make_shared<EnvironmentMap>(read_environment(description.file, description.up, description.scale));
-            parts.push_back({"environment map", true, description.file.filename().string(), seconds_since(start), 0});
-        }
-        light.map = map;
-        hash = hash_vector(map->texels(), hash);
-        break;
+    const LightDescription& description = scene.lights[light];
+    if (description.kind != LightDescription::Kind::environment) return nullptr;
+    auto& map = maps[light];
+    if (!map) {
+        const Stopwatch watch;
+        map = std::make_shared<EnvironmentMap>(read_environment(description.file, description.up, description.scale));
+        parts.push_back({"environment map", true, description.file.filename().string(), watch.seconds(), 0});
     }
-    case Kind::distant: {
-        light.direction = -description.direction.normalized();
-        const double half = description.angle * pi / 360, sine = std::sin(half / 2);
-        light.one_minus_cos = 2 * sine * sine;
-        light.radiance = description.irradiance;
-        // Irradiance of a disc of constant radiance overhead: L pi sin^2.
-        if (half > 0) light.radiance *= static_cast<float>(1 / (pi * std::sin(half) * std::sin(half)));
-        break;
-    }
-    case Kind::rectangle: {
-        light.corner = space.point(description.corner);
-        light.edge1 = space.vector(description.edge1);
-        light.edge2 = space.vector(description.edge2);
-        const V3d cross = light.edge1.cross(light.edge2);
-        light.area = cross.length();
-        light.normal = cross.normalized();
-        break;
-    }
-    case Kind::sphere:
-        light.center = space.point(description.center);
-        light.radius = space.length(description.radius);
-        light.area = 4 * pi * light.radius * light.radius;
-        break;
-    }
-    return light;
+    hash = hash_vector(map->texels(), hash);
+    return map;
 }
 
 LightSet WorldBuilder::Impl::make_lights(const World& world)
@@ -355,7 +333,7 @@ LightSet WorldBuilder::Impl::make_lights(const World& world)
     std::vector<Light> lights;
     bool point = false, glass = false;
     for (size_t i = 0; i < scene.lights.size(); ++i) {
-        lights.push_back(make_light(i, world.space));
+        lights.push_back(make_light(scene.lights[i], read_map(i), world.space));
         point |= lights.back().kind == LightKind::distant && lights.back().one_minus_cos == 0;
     }
     for (const GrainType& type : world.types) glass |= type.material.transmits() || type.material.is_delta();
@@ -363,7 +341,7 @@ LightSet WorldBuilder::Impl::make_lights(const World& world)
     if (point && glass) {
         frame_warnings.push_back("a distant light of angle 0 cannot be found by paths through glass: its caustics are missing");
     }
-    double radius2 = world.grains.size() > 0 ? 1.0 : 0.0;
+    double radius2 = world.has_grains() ? 1.0 : 0.0;
     for (const Surface& surface : world.surfaces) {
         for (const V3f& p : surface.positions) radius2 = std::max(radius2, V3d(p).length2());
     }
@@ -378,7 +356,7 @@ WorldBuilder::WorldBuilder(SceneDescription scene) : impl_(std::make_unique<Impl
                          "at most 256");
     }
     const auto& assembly = impl_->scene.assembly;
-    if (assembly && !assembly->dump.empty()) impl_->series = DumpSeries::open(assembly->dump);
+    if (assembly && !assembly->dump.empty() && !is_points_file(assembly->dump)) impl_->series = DumpSeries::open(assembly->dump);
     impl_->mixtures = impl_->make_mixtures();
 }
 
@@ -409,11 +387,13 @@ std::shared_ptr<const World> WorldBuilder::build(size_t frame, const Progress& p
     impl_->frame_warnings.clear();
     impl_->hash = hash_bytes(impl_->scene.canonical.data(), impl_->scene.canonical.size(), frame);
     auto world = std::make_shared<World>();
-    if (impl_->scene.assembly) {
-        const auto start = std::chrono::steady_clock::now();
+    if (impl_->scene.assembly && impl_->scene.assembly->fill) {
+        impl_->make_fill(*world);
+    } else if (impl_->scene.assembly) {
+        const Stopwatch watch;
         Spheres spheres = impl_->read_spheres(frame, progress);
         const uint64_t read = spheres.frame.size();
-        const double read_seconds = seconds_since(start);
+        const double read_seconds = watch.seconds();
         world->grains = impl_->make_grains(std::move(spheres), *world);
         impl_->parts.push_back({"grains", true, fmt::format("{} of {} spheres read", world->grains.size(), read), read_seconds,
                                 world->grains.bytes()});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ingest/dump_series.h"
+#include "render/scene/part_report.h"
 #include "render/scene/scene_description.h"
 #include "render/scene/world.h"
 
@@ -9,15 +10,6 @@
 #include <vector>
 
 namespace scree {
-
-/// What one part of a world cost, or why it is not there. For `--plan` and the statistics.
-struct PartReport {
-    std::string part;     ///< e.g. "exemplar 'sugar'"
-    bool built = false;
-    std::string reason;   ///< what was built, or why it was skipped
-    double seconds = 0;
-    uint64_t bytes = 0;
-};
 
 /// Makes worlds out of a scene, frame by frame; what frames share (exemplars, environment maps, surfaces) is read once,
 /// and only when a frame needs it.

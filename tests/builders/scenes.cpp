@@ -57,6 +57,7 @@ void TestScene::build()
         if (!meshes) world_.grains.analytic_count = world_.grains.size();
     }
     world_.grains.spheres.push_back({});
+    world_.grains.widen();
     for (const auto& [mesh, material] : surfaces_) {
         Surface surface{"surface", {}, mesh.triangles, material};
         surface.material.absorption *= static_cast<float>(space.world_length(1));

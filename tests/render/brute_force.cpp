@@ -17,7 +17,7 @@ V3d random_point(Sampler& sampler, double half)
 
 std::array<V3d, 3> grain_triangle(const World& world, uint32_t grain, uint32_t triangle)
 {
-    const Imath::M33d rotation = world.grains.rotation(grain);
+    const Imath::M33d rotation = world.rotation(grain);
     auto corners = world.types[world.grains.type_codes[grain]].exemplar->corners(triangle);
     for (V3d& p : corners) p = world.grains.centre(grain) + (p * rotation) * world.grains.radius(grain);
     return corners;

@@ -102,7 +102,7 @@ TEST(TracerStart, RaysIntoAConvexMeshGrainComeOut)
         const auto triangle = static_cast<uint32_t>(sampler.next() * static_cast<double>(exemplar.triangle_count()));
         const auto corners = grain_triangle(world, grain, triangle);
         const V3d o = point_of(corners, sampler, i), d = leaving_direction(sampler, -unit_normal(corners), i);
-        const Hit hit = scene.tracer().intersect_inside(grain, o, d, {HitKind::grain, grain, triangle});
+        const Hit hit = scene.tracer().intersect_inside({HitKind::grain, grain, no_triangle, world.type(grain)}, o, d, {HitKind::grain, grain, triangle});
         const double r = world.grains.radius(grain);
         if (hit.place.kind == HitKind::none) {
             (i % 6 == 5 ? lost_within : lost_at_edges) += 1;
@@ -211,7 +211,7 @@ TEST(TracerWatertight, LongWalksInsideAreNotLost)
         V3d o = scene.world().grains.centre(grain), d = random_direction(sampler);
         Place from;
         for (int step = 0; step < 500; ++step) {
-            const Hit hit = scene.tracer().intersect_inside(grain, o, d, from);
+            const Hit hit = scene.tracer().intersect_inside({HitKind::grain, grain, no_triangle, scene.world().type(grain)}, o, d, from);
             ++steps;
             if (hit.place.kind == HitKind::none) {
                 ++lost;

@@ -43,7 +43,7 @@ struct Comparison {
         V3d normal = hit.normal;
         if (hit.place.kind == HitKind::grain) {
             normal = hit.place.triangle == no_triangle ? (hit.point - world.grains.centre(hit.place.index)).normalized()
-                                                       : unit_normal(grain_triangle(world, hit.place.index, hit.place.triangle));
+                                                       : unit_normal(grain_triangle(world, static_cast<uint32_t>(hit.place.index), hit.place.triangle));
         }
         EXPECT_LT((hit.normal - normal).length(), 1e-9);
         if (!right && ++wrong <= 3) {
@@ -212,8 +212,8 @@ TEST_P(TracerAgainstBruteForce, RaysInsideGrains)
         V3d in = random_direction(sampler);
         if (i % 4 == 0) in = (in - in.dot(hit.normal) * hit.normal - 1e-4 * sampler.next() * hit.normal).normalized();
         if (in.dot(hit.normal) > 0) in = -in;
-        const uint32_t grain = hit.place.index;
-        Hit way_out = tracer().intersect_inside(grain, hit.point, in, hit.place);
+        const auto grain = static_cast<uint32_t>(hit.place.index);
+        Hit way_out = tracer().intersect_inside(hit.place, hit.point, in, hit.place);
         const Truth expected = truth().inside(grain, hit.point, in, hit.place);
         lost += way_out.place.kind == HitKind::none && !expected.close;
         comparison.check(world(), way_out, expected, hit.point, in, tolerance());
@@ -221,7 +221,7 @@ TEST_P(TracerAgainstBruteForce, RaysInsideGrains)
         if (way_out.place.kind != HitKind::grain) continue;
         V3d back = random_direction(sampler);
         if (back.dot(way_out.normal) > 0) back = -back;
-        comparison.check(world(), tracer().intersect_inside(grain, way_out.point, back, way_out.place),
+        comparison.check(world(), tracer().intersect_inside(way_out.place, way_out.point, back, way_out.place),
                          truth().inside(grain, way_out.point, back, way_out.place), way_out.point, back, tolerance());
     }
     EXPECT_EQ(lost, 0);

@@ -1,0 +1,315 @@
+#include "packing/report/pair_correlation.h"
+
+#include "mixtures/hash.h"
+#include "packing/report/ordered_sum.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace scree {
+
+using Imath::V3d;
+
+namespace {
+
+constexpr uint64_t choice_seed = 0x63686f69, path_seed = 0x70617468;
+constexpr double pair_budget = 8e7, near_budget = 4e7, path_budget = 4e6;
+constexpr size_t blocks_per_axis = 4, block_count = blocks_per_axis * blocks_per_axis * blocks_per_axis;
+constexpr size_t near_bins = 20;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+size_t block_of(const PackedSpheres& spheres, uint64_t i)
+{
+    const V3d u = spheres.fractional(spheres.position(i));
+    size_t block = 0;
+    for (int axis = 0; axis < 3; ++axis) block = block * blocks_per_axis + std::min(static_cast<size_t>(u[axis] * blocks_per_axis), blocks_per_axis - 1);
+    return block;
+}
+
+/// Mean of (r + s)^3 over the other spheres' radii s.
+double mean_cube(double r, const RadiusMoments& m) { return r * r * r + 3 * r * r * m.m[1] + 3 * r * m.m[2] + m.m[3]; }
+
+/// Pairs counted in bins of x, and what spheres without correlation would give, in units of the bin's shell.
+struct Shells {
+    std::vector<uint64_t> pairs;
+    double cubes = 0; ///< sum of mean_cube over the centres
+    uint64_t centres = 0;
+    void add(const Shells& other)
+    {
+        pairs.resize(std::max(pairs.size(), other.pairs.size()));
+        for (size_t k = 0; k < other.pairs.size(); ++k) pairs[k] += other.pairs[k];
+        cubes += other.cubes;
+        centres += other.centres;
+    }
+};
+
+struct BlockedShells {
+    std::array<Shells, block_count> blocks;
+    void add(const BlockedShells& other)
+    {
+        for (size_t b = 0; b < block_count; ++b) blocks[b].add(other.blocks[b]);
+    }
+};
+
+double shell_volume(double x, double width) { return 4.0 / 3 * std::numbers::pi * (std::pow(x + width, 3) - x * x * x); }
+
+/// Counts the spheres around sphere i.
+void count_around(const PackedSpheres& spheres, uint64_t i, double first, double width, size_t bins, Shells& shells)
+{
+    const double r = spheres.radius(i), x_max = first + width * double(bins);
+    shells.pairs.resize(bins);
+    spheres.visit_near(spheres.position(i), r, x_max, [&](const PackedSpheres::Neighbour& n) {
+        const double x = n.offset.length() / (r + n.radius);
+        if (x == 0 && n.index == i) return true;
+        const double bin = (x - first) / width;
+        if (bin >= 0 && bin < double(bins)) ++shells.pairs[static_cast<size_t>(bin)];
+        return true;
+    });
+    shells.cubes += mean_cube(r, spheres.moments());
+    ++shells.centres;
+}
+
+/// The largest x to measure to: 5, or less where the packing does not reach as far around at least a tenth of the bulk's spheres.
+double choose_x_max(const PackedSpheres& spheres)
+{
+    if (spheres.container() == PackedSpheres::Container::periodic_box) return 5;
+    for (const double x : {5.0, 4.0, 3.0, 2.5, 2.0, 1.5}) {
+        const double margin = 2 * x * spheres.largest_radius();
+        uint64_t all = 0, deep = 0;
+        const uint64_t step = std::max<uint64_t>(1, spheres.size() / 5000);
+        for (uint64_t i = 0; i < spheres.size(); i += step) {
+            all += spheres.bulk(i);
+            deep += spheres.in_bulk(spheres.position(i), margin);
+        }
+        if (deep > 0 && 10 * deep >= all) return x;
+    }
+    return 0;
+}
+
+/// ln g = a + b (x - 1) + c (x - 1)^2 by least squares weighted with the counts: e^a. Nothing where bins are empty.
+double fitted_contact(const Shells& shells, double number_density, double width)
+{
+    double s[5] = {}, t[3] = {};
+    for (size_t k = 0; k < shells.pairs.size(); ++k) {
+        const double count = double(shells.pairs[k]), x = 1 + width * double(k);
+        if (count < 1) return 0;
+        const double y = std::log(count / (number_density * shells.cubes * shell_volume(x, width))), dx = width * (double(k) + 0.5);
+        double power = count;
+        for (int p = 0; p < 5; ++p, power *= dx) {
+            s[p] += power;
+            if (p < 3) t[p] += power * y;
+        }
+    }
+    const auto determinant = [](const double (&a)[3], const double (&b)[3], const double (&c)[3]) {
+        return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    };
+    const double whole = determinant({s[0], s[1], s[2]}, {s[1], s[2], s[3]}, {s[2], s[3], s[4]});
+    const double first = determinant({t[0], s[1], s[2]}, {t[1], s[2], s[3]}, {t[2], s[3], s[4]});
+    return whole != 0 ? std::exp(first / whole) : 0;
+}
+
+/// The jackknife over blocks: value(block) is that without it, value(block_count) that of the whole.
+///
+/// A block with more spheres has a higher value, but as the number of spheres is given in all, that is no error of the whole: the
+/// part of the scatter that follows the blocks' counts is taken out by regression.
+template <class Value> Measured jackknife(const std::array<uint64_t, block_count>& counts, const Value& value)
+{
+    Measured result{value(block_count), infinity};
+    std::vector<double> x, y;
+    for (size_t b = 0; b < block_count; ++b) {
+        if (counts[b] == 0) continue;
+        x.push_back(double(counts[b]));
+        y.push_back(value(b));
+    }
+    const double n = double(x.size());
+    if (n < 8) return result;
+    double mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0;
+    for (size_t k = 0; k < x.size(); ++k) {
+        mean_x += x[k] / n;
+        mean_y += y[k] / n;
+    }
+    for (size_t k = 0; k < x.size(); ++k) {
+        xx += (x[k] - mean_x) * (x[k] - mean_x);
+        xy += (x[k] - mean_x) * (y[k] - mean_y);
+        yy += (y[k] - mean_y) * (y[k] - mean_y);
+    }
+    const double residual = xx > 0 ? std::max(0.0, yy - xy * xy / xx) : yy;
+    result.standard_error = std::sqrt(residual * (n - 1) * (n - 1) / (n * (n - 2)));
+    return result;
+}
+
+struct PathSums {
+    std::array<double, block_count> ends{}, expected{}; ///< (2 / l) (s_1 + s_2), and 4 pi <s^3>
+    std::array<uint64_t, block_count> spheres{};
+    double inverse = 0; ///< sum of s / l
+    uint64_t paths = 0;
+    void add(const PathSums& other)
+    {
+        for (size_t b = 0; b < block_count; ++b) {
+            ends[b] += other.ends[b];
+            expected[b] += other.expected[b];
+            spheres[b] += other.spheres[b];
+        }
+        inverse += other.inverse;
+        paths += other.paths;
+    }
+};
+
+/// What a sphere meets when it moves: how far it gets, and the sum of radii there.
+struct Collision {
+    double way = infinity, touch = 0;
+};
+
+void collide(const V3d& offset, double touch, const V3d& direction, double from, Collision& nearest)
+{
+    const double b = offset.dot(direction), h2 = touch * touch - (offset.length2() - b * b);
+    if (b <= 0 || h2 <= 0) return;
+    const double way = b - std::sqrt(h2);
+    if (way >= from && way < nearest.way) nearest = {way, touch};
+}
+
+/// Marches on from `from`, where the nearest collision is not nearer.
+Collision march(const PackedSpheres& spheres, const V3d& start, double radius, const V3d& direction, double from)
+{
+    Collision nearest;
+    double step = 2 * radius;
+    for (int k = 0; k < 256 && nearest.way == infinity; ++k, from += step) {
+        const V3d middle = start + (from + 0.5 * step) * direction;
+        spheres.visit_near(middle, radius + 0.5 * step, 1, [&](const PackedSpheres::Neighbour& n) {
+            collide(n.offset + (middle - start), radius + n.radius, direction, from, nearest);
+            return true;
+        });
+        if (nearest.way > from + step) nearest = {}; // one beyond this step need not be the first
+    }
+    return nearest;
+}
+
+V3d direction_of(uint64_t index)
+{
+    const double z = 2 * unit_double(hash_index(index, path_seed, 0)) - 1, phi = 2 * std::numbers::pi * unit_double(hash_index(index, path_seed, 1));
+    const double s = std::sqrt(std::max(0.0, 1 - z * z));
+    return {s * std::cos(phi), s * std::sin(phi), z};
+}
+
+/// way: up to here collisions are looked for among the spheres near i; most paths are shorter.
+void free_paths_of(const PackedSpheres& spheres, uint64_t i, uint64_t directions, double way, std::vector<std::pair<V3d, double>>& near, PathSums& sums)
+{
+    const double r = spheres.radius(i), known = way + r;
+    near.clear();
+    bool free = true;
+    spheres.visit_near(spheres.position(i), known, 1, [&](const PackedSpheres::Neighbour& n) {
+        const double d2 = n.offset.length2(), touch = r + n.radius;
+        if (d2 == 0 && n.index == i) return true;
+        free = free && d2 > touch * touch;
+        if (d2 < (known + n.radius) * (known + n.radius)) near.emplace_back(n.offset, touch);
+        return free && near.size() < 4096;
+    });
+    if (!free) return; // overlapping spheres have no way to move
+    const size_t block = block_of(spheres, i);
+    ++sums.spheres[block];
+    for (uint64_t k = 0; k < directions; ++k) {
+        const V3d u = direction_of(i * directions + k);
+        Collision ends[2];
+        for (const auto& [offset, touch] : near) {
+            const double b = offset.dot(u), h2 = touch * touch - (offset.length2() - b * b);
+            if (h2 <= 0) continue;
+            const double to = std::abs(b) - std::sqrt(h2);
+            Collision& end = ends[b < 0];
+            if (to < end.way) end = {to, touch};
+        }
+        for (int side = 0; side < 2; ++side)
+            if (ends[side].way > way) ends[side] = march(spheres, spheres.position(i), r, side == 0 ? u : -u, way);
+        const double length = ends[0].way + ends[1].way;
+        ++sums.paths;
+        sums.expected[block] += 4 * std::numbers::pi * mean_cube(r, spheres.moments());
+        if (!(length > 0) || length == infinity) continue;
+        sums.ends[block] += 2 / length * (ends[0].touch + ends[1].touch);
+        sums.inverse += 0.5 * (ends[0].touch + ends[1].touch) / length;
+    }
+}
+
+} // namespace
+
+PairCorrelation measure_pair_correlation(const PackedSpheres& spheres, double number_density, const Progress& progress)
+{
+    PairCorrelation result;
+    result.x_max = choose_x_max(spheres);
+    if (result.x_max == 0 || !(number_density > 0)) return result;
+    const double around = number_density * 4 / 3 * std::numbers::pi * mean_cube(spheres.moments().m[1], spheres.moments());
+    const double margin = 2 * result.x_max * spheres.largest_radius();
+    // A sphere is asked when its hash is below a share of all: the same choice everywhere, and blind to order in the file.
+    const auto chosen = [&](uint64_t i, double share) { return unit_double(hash_index(i, choice_seed)) < share; };
+    const auto share_of = [&](double budget, double cost) { return budget / (double(spheres.size()) * std::max(cost, 1.0)); };
+
+    const double share = share_of(pair_budget, around * std::pow(result.x_max, 3));
+    const size_t bins = static_cast<size_t>(std::lround(result.x_max / result.bin_width));
+    const Shells far = ordered_sum<Shells>(spheres.size(), 2048, "pair correlation", progress, [&](uint64_t begin, uint64_t end) {
+        Shells part;
+        for (uint64_t rank = begin; rank < end; ++rank) {
+            const uint64_t i = spheres.ranked(rank).index;
+            if (chosen(i, share) && spheres.in_bulk(spheres.position(i), margin)) count_around(spheres, i, 0, result.bin_width, bins, part);
+        }
+        return part;
+    });
+    result.centres = far.centres;
+    if (far.centres == 0) {
+        result.x_max = 0;
+        return result;
+    }
+    for (size_t k = 0; k < bins; ++k) {
+        const double expected = number_density * far.cubes * shell_volume(double(k) * result.bin_width, result.bin_width);
+        result.g.push_back(double(far.pairs[k]) / expected);
+    }
+
+    const double width = (PairCorrelation::fit_end - 1) / double(near_bins), near_share = share_of(near_budget, 8 * around);
+    const double near_margin = 2 * PairCorrelation::fit_end * spheres.largest_radius();
+    const BlockedShells near = ordered_sum<BlockedShells>(spheres.size(), 8192, "contact value", progress, [&](uint64_t begin, uint64_t end) {
+        BlockedShells part;
+        for (uint64_t rank = begin; rank < end; ++rank) {
+            const uint64_t i = spheres.ranked(rank).index;
+            if (chosen(i, near_share) && spheres.in_bulk(spheres.position(i), near_margin)) count_around(spheres, i, 1, width, near_bins, part.blocks[block_of(spheres, i)]);
+        }
+        return part;
+    });
+    std::array<uint64_t, block_count> counts{};
+    for (size_t b = 0; b < block_count; ++b) counts[b] = near.blocks[b].centres;
+    result.contact = jackknife(counts, [&](size_t without) {
+        Shells sum;
+        for (size_t b = 0; b < block_count; ++b)
+            if (b != without) sum.add(near.blocks[b]);
+        if (without == block_count)
+            for (const uint64_t pairs : sum.pairs) result.fitted_pairs += pairs;
+        return fitted_contact(sum, number_density, width);
+    });
+
+    const uint64_t directions = static_cast<uint64_t>(std::clamp(path_budget / double(spheres.size()), 4.0, 64.0));
+    const double path_share = share_of(path_budget, double(directions));
+    // Twice the mean way of a point-like sphere among others.
+    const double way = 2 / (number_density * std::numbers::pi * (2 * spheres.moments().m[2] + 2 * std::pow(spheres.moments().m[1], 2)));
+    const PathSums paths = ordered_sum<PathSums>(spheres.size(), 2048, "free paths", progress, [&](uint64_t begin, uint64_t end) {
+        PathSums part;
+        std::vector<std::pair<V3d, double>> buffer;
+        for (uint64_t rank = begin; rank < end; ++rank) {
+            const uint64_t i = spheres.ranked(rank).index;
+            if (chosen(i, path_share) && spheres.in_bulk(spheres.position(i), near_margin)) free_paths_of(spheres, i, directions, way, buffer, part);
+        }
+        return part;
+    });
+    result.free_paths = paths.paths;
+    result.free_path_contact = jackknife(paths.spheres, [&](size_t without) {
+        double ends = 0, expected = 0;
+        for (size_t b = 0; b < block_count; ++b) {
+            if (b == without) continue;
+            ends += paths.ends[b];
+            expected += paths.expected[b];
+        }
+        return expected > 0 ? ends / (number_density * expected) : 0;
+    });
+    result.reduced_pressure = paths.paths > 0 ? 1 + 2.0 / 3 * paths.inverse / double(paths.paths) : 0;
+    return result;
+}
+
+} // namespace scree

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "mixtures/mixture.h"
+#include "packing/procedural_fill.h"
+#include "render/grains/grain_store.h"
+#include "render/scene/render_space.h"
+
+#include <memory>
+
+namespace scree {
+
+/// The grains of a procedural fill in render coordinates: a GrainStore that lists nothing. A grain is known by its id.
+///
+/// Places and radii are what a GrainStore of the same spheres would hold, rounded to float, so that both make the same picture.
+class GrainFill {
+public:
+    GrainFill(std::shared_ptr<const ProceduralFill> fill, std::shared_ptr<const Mixture> mixture, const RenderSpace& space);
+
+    const ProceduralFill& fill() const { return *fill_; }
+
+    GrainSphere sphere(uint64_t id) const { return to_render(fill_->sphere(id)); }
+    GrainSphere to_render(const ProceduralFill::Sphere& sphere) const;
+    /// The grain type of a grain of the fill.
+    uint8_t type(uint64_t id) const { return type(id, fill_->sphere(id)); }
+    uint8_t type(uint64_t id, const ProceduralFill::Sphere& sphere) const;
+
+    const FloatMargin& margin() const { return margin_; }
+    double largest_radius() const { return largest_radius_; }
+
+private:
+    std::shared_ptr<const ProceduralFill> fill_;
+    std::shared_ptr<const Mixture> mixture_;
+    RenderSpace space_;
+    FloatMargin margin_;
+    double largest_radius_ = 0;
+};
+
+} // namespace scree

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "ingest/triangle_mesh.h"
+
+namespace scree {
+
+/// Axis-aligned box, 12 triangles looking outward.
+TriangleMesh box(const Imath::V3d& lo, const Imath::V3d& hi);
+
+/// A ring around the z axis: 2 * around * along triangles.
+TriangleMesh torus(double major, double minor, int around, int along);
+
+/// Two unit spheres (icospheres of a level), the inner one scaled by 1 - thickness and looking inward.
+TriangleMesh double_walled_shell(int level, double thickness);
+
+/// The cube -1..1 with a round bore of radius 0.45 along each axis and a ball cut from each corner: CSG of level sets,
+/// `cells` voxels an edge, meshed.
+TriangleMesh bored_cube(int cells);
+
+/// Both surfaces in one mesh; vertices are not merged.
+TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b);
+
+TriangleMesh flipped(TriangleMesh mesh);
+TriangleMesh scaled(TriangleMesh mesh, double factor);
+TriangleMesh moved(TriangleMesh mesh, const Imath::V3d& by);
+
+} // namespace scree
