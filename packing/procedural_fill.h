@@ -93,7 +93,7 @@ private:
     std::shared_ptr<const PackingTile> tile_;
     DistanceField field_;
     Imath::V3d origin_;
-    double scale_ = 1, voxel_ = 1, largest_radius_ = 0;
+    double scale_ = 1, voxel_ = 1, step_ = 1, inverse_step_ = 1, largest_radius_ = 0;
     Imath::M33d rotation_, to_lattice_, from_lattice_; // Imath multiplies row vectors from the left
     std::array<int64_t, 3> first_{}; // of the numbered cells
     std::array<uint64_t, 3> count_{};

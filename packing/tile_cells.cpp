@@ -1,6 +1,7 @@
 #include "packing/tile_cells.h"
 
 #include "ingest/support/error.h"
+#include "packing/tile_spheres.h"
 
 #include <fmt/format.h>
 
@@ -38,7 +39,7 @@ TileCells::TileCells(const Imath::V3d& size, std::span<const double> radii, doub
         Level& level = levels_[level_index];
         // In a dilute tile cells hold about one sphere each.
         const double volume_of_one = size.x * size.y * size.z / static_cast<double>(counts[n]);
-        const double width = std::max(2 * level.radius + skin, std::cbrt(volume_of_one));
+        const double width = std::max(2 * level.radius + skin, cube_root(volume_of_one));
         for (int axis = 0; axis < 3; ++axis) {
             level.cells[axis] = static_cast<int64_t>(std::clamp(size[axis] / width, 1.0, 1e6));
             level.cells_per_length[axis] = static_cast<double>(level.cells[axis]) / size[axis];

@@ -23,7 +23,7 @@ public:
     {
         cells_.fill(spheres.place);
         const double volume = spheres.size.x * spheres.size.y * spheres.size.z;
-        spacing_ = std::cbrt(volume / static_cast<double>(spheres.count()));
+        spacing_ = cube_root(volume / static_cast<double>(spheres.count()));
         std::ranges::fill(steps_, 0.2 * spacing_);
     }
 

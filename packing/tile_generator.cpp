@@ -96,8 +96,8 @@ float rounded_down(double radius)
 }
 
 /// From a periodic packing to the tile: rows in order, variants, radii. types: by row of the packing, or empty.
-/// fixed_radii: the radii must not become smaller.
-void finish(TileSpheres spheres, const std::vector<int32_t>& types, bool fixed_radii, const TileOptions& options, MadeTile& made, TileProgress& shown, const Progress& progress)
+/// goal: the scale of the radii that is enough, or nothing: as large as it gets. may_shrink: whether less will do.
+void finish(TileSpheres spheres, const std::vector<int32_t>& types, std::optional<double> goal, bool may_shrink, const TileOptions& options, MadeTile& made, TileProgress& shown, const Progress& progress)
 {
     std::vector<uint64_t> order;
     const uint64_t shared = order_by_faces(spheres, order);
@@ -109,12 +109,11 @@ void finish(TileSpheres spheres, const std::vector<int32_t>& types, bool fixed_r
         if (made.fluid) {
             variants = equilibrate_variants(spheres, shared, options.variants, options.sweeps, options.seed, [&](uint32_t v, double part) { shown.update(v, part); }, progress);
         } else {
-            const std::optional<double> goal = fixed_radii ? std::optional<double>(1) : std::nullopt;
             variants = pack_variants(spheres, shared, options.variants, goal, options.seed, [&](double part) {
                 for (uint32_t v = 1; v < options.variants; ++v) shown.update(v, part);
             }, progress);
         }
-        if (variants.scale < 1 && fixed_radii)
+        if (variants.scale < 1 && !may_shrink)
             throw InputError(command, fmt::format("{} variants at fraction {:.6g}", options.variants, spheres.fraction()),
                              fmt::format("a fraction that variants with the same boundary spheres reach: {:.4f}", spheres.fraction() * std::pow(variants.scale, 3)), "a lower --fraction, --fraction max, or --variants 1");
     }
@@ -137,7 +136,7 @@ MadeTile make_tile(std::span<const double> radii, const TileOptions& options, co
     spheres.radius.assign(radii.begin(), radii.end());
     spheres.place.resize(radii.size());
     const double wanted = options.fraction.value_or(random_close_packing(radii));
-    const double scale = std::cbrt(wanted / spheres.fraction());
+    const double scale = cube_root(wanted / spheres.fraction());
     for (double& r : spheres.radius) r *= scale;
     check_room(spheres);
 
@@ -148,7 +147,7 @@ MadeTile make_tile(std::span<const double> radii, const TileOptions& options, co
     pack_first(spheres, options, made.fluid, made, [&](double part) { shown.update(0, part); }, progress);
     shown.update(0, 1);
     made.radius_scale = scale * spheres.radius[0] / before;
-    finish(std::move(spheres), {}, options.fraction.has_value(), options, made, shown, progress);
+    finish(std::move(spheres), {}, options.fraction ? std::optional<double>(1) : std::nullopt, !options.fraction, options, made, shown, progress);
     return made;
 }
 
@@ -191,7 +190,7 @@ MadeTile tile_from_frame(const ParticleFrame& frame, const std::string& place, c
         made.largest_shift = std::max(made.largest_shift, shift);
     }
     made.fluid = options.sweeps ? *options.sweeps > 0 : spheres.fraction() <= TileOptions::densest_fluid;
-    finish(std::move(spheres), frame.type, false, options, made, shown, progress);
+    finish(std::move(spheres), frame.type, 1, true, options, made, shown, progress);
     return made;
 }
 

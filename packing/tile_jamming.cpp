@@ -78,7 +78,7 @@ double settle_spheres(TileSpheres& spheres, double goal, const TileStep& step, c
 double jam_spheres(TileSpheres& spheres, double overfull, int rounds, const TileStep& step, const Progress& progress)
 {
     TileRelaxation soft(spheres);
-    double compressed = std::cbrt(overfull / spheres.fraction()), scale = compressed;
+    double compressed = cube_root(overfull / spheres.fraction()), scale = compressed;
     for (int round = 0; round < rounds; ++round) {
         const bool last = round + 1 == rounds;
         while (soft.relax(compressed, {.allowed = close_enough, .balance = balance, .max_steps = 4000}, progress) == Outcome::separated) compressed *= 1.02;

@@ -23,6 +23,12 @@ double TileSpheres::fraction() const
     return 4 * std::numbers::pi / 3 * cubes / (size.x * size.y * size.z);
 }
 
+double cube_root(double x)
+{
+    const int thirds = static_cast<int>(std::floor(std::ilogb(x) / 3.0));
+    return std::ldexp(std::cbrt(std::ldexp(x, -3 * thirds)), thirds);
+}
+
 Imath::V3d wrapped_into(const Imath::V3d& place, const Imath::V3d& size)
 {
     Imath::V3d result;

@@ -27,6 +27,9 @@ struct TileSpheres {
     double fraction() const;
 };
 
+/// The cube root, whose digits do not change with factors of 8 (those of std::cbrt may, by one): a cuboid twice as wide gives the same tile.
+double cube_root(double x);
+
 /// The image of a place in the cuboid, 0 <= x < size.
 Imath::V3d wrapped_into(const Imath::V3d& place, const Imath::V3d& size);
 

@@ -64,7 +64,7 @@ std::string plan_text(const WorldBuilder& builder, const World& world, size_t fr
         const bool wanted = std::find(scene.film.aov.begin(), scene.film.aov.end(), static_cast<Aov>(i)) != scene.film.aov.end();
         text += part_text({"channels " + aov_names[i], wanted, wanted ? "asked for" : "not asked for"});
     }
-    text += fmt::format("  would trace {} grains of {} types among {} surfaces under {} lights\n", world.grains.size(), world.types.size(),
+    text += fmt::format("  would trace {}{} grains of {} types among {} surfaces under {} lights\n", world.fill ? "about " : "", world.grain_count(), world.types.size(),
                         world.surfaces.size(), world.lights.lights().size());
     return text;
 }

@@ -202,7 +202,7 @@ private:
         report.parts.push_back({"acceleration structure", true, "Embree", std::chrono::duration<double>(built - build_start).count(),
                                 static_cast<uint64_t>(builder_.device()->bytes() - before)});
         report.setup_seconds = std::chrono::duration<double>(built - start).count();
-        report.grains = world->grains.size();
+        report.grains = world->grain_count();
 
         const Camera camera = make_camera(scene_, world->space);
         RenderOptions options = job_.options;

@@ -86,7 +86,7 @@ double castle(const Vec3d& p)
 int main(int argc, char** argv)
 {
     if (argc < 2) return std::fprintf(stderr, "usage: make_castle OUT.off [VOXEL]\n"), 2;
-    const double voxel = argc > 2 ? std::atof(argv[2]) : 0.006;
+    const double voxel = argc > 2 ? std::atof(argv[2]) : 0.008;
     openvdb::initialize();
     const float band = static_cast<float>(3 * voxel);
     auto grid = openvdb::FloatGrid::create(band);

@@ -100,7 +100,8 @@ void bench_neighbours(uint64_t count, double sigma)
         std::vector<Triangulation::Point> points;
         for (const Imath::V3d& p : place) points.emplace_back(p.x, p.y, p.z);
         cgal = seconds_of([&] {
-            const Triangulation triangulation(points.begin(), points.end(), Triangulation::Iso_cuboid(0, 0, 0, 1, 1, 1), true);
+            Triangulation triangulation(Triangulation::Iso_cuboid(0, 0, 0, 1, 1, 1));
+            triangulation.insert(points.begin(), points.end(), true);
             edges = triangulation.number_of_edges();
         });
     }

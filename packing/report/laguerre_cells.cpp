@@ -73,8 +73,12 @@ template <class T> std::array<T, 3> equal_power(const std::array<WeightedPoint, 
     return solve(a, b, determinant);
 }
 
-DualVertex dual_vertex(const std::array<WeightedPoint, 4>& p)
+bool before(const V3d& a, const V3d& b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
+
+/// The same to the last bit for any order of the points.
+DualVertex dual_vertex(std::array<WeightedPoint, 4> p)
 {
+    std::ranges::sort(p, [](const WeightedPoint& a, const WeightedPoint& b) { return before(place_of(a), place_of(b)); });
     double determinant = 0;
     std::array<double, 3> x = equal_power(p, determinant);
     double edges = 1;
@@ -122,6 +126,16 @@ struct Cells {
     std::vector<uint8_t> present, bounded;
 };
 
+/// Area of a convex polygon seen along a direction; the same to the last bit for any start and sense.
+double area_across(std::vector<V3d>& polygon, const V3d& direction)
+{
+    std::rotate(polygon.begin(), std::ranges::min_element(polygon, before), polygon.end());
+    if (before(polygon.back(), polygon[1])) std::reverse(polygon.begin() + 1, polygon.end());
+    double twice = 0;
+    for (size_t k = 1; k + 1 < polygon.size(); ++k) twice += (polygon[k] - polygon[0]).cross(polygon[k + 1] - polygon[0]).dot(direction);
+    return 0.5 * std::abs(twice);
+}
+
 Cells cells_of(const Neighbourhood& neighbourhood, size_t count, double largest_radius, const Progress& progress)
 {
     Triangulation triangulation(neighbourhood.points.begin(), neighbourhood.points.end());
@@ -152,30 +166,33 @@ Cells cells_of(const Neighbourhood& neighbourhood, size_t count, double largest_
         if (safe) continue;
         for (int k = 0; k < 4; ++k) spoil(cell->vertex(k));
     }
+    // Where CGAL starts and in which order it goes depends on addresses: sums are made in an order of their own.
+    std::vector<std::pair<size_t, double>> cones;
+    std::vector<V3d> polygon;
     uint64_t edges = 0;
     for (auto edge = triangulation.finite_edges_begin(); edge != triangulation.finite_edges_end(); ++edge) {
         if (++edges % 4096 == 0 && progress.cancelled()) throw Cancelled();
-        const auto v = edge->first->vertex(edge->second), w = edge->first->vertex(edge->third);
+        auto v = edge->first->vertex(edge->second), w = edge->first->vertex(edge->third);
         if (v->info() == outer && w->info() == outer) continue;
+        if (before(place_of(w->point()), place_of(v->point()))) std::swap(v, w);
         // The face between two cells lies around the edge; the cells are cones over their faces.
-        const V3d p = place_of(v->point()), along = place_of(w->point()) - p;
-        const double d = along.length();
-        V3d area(0);
+        polygon.clear();
         bool whole = true;
         const Triangulation::Cell_circulator first = triangulation.incident_cells(*edge);
         Triangulation::Cell_circulator here = first;
-        const V3d corner = here->info().place;
         do {
             if (triangulation.is_infinite(here)) whole = false;
-            const V3d a = here->info().place - corner;
-            ++here;
-            area += 0.5 * a.cross(here->info().place - corner);
-        } while (here != first);
+            polygon.push_back(here->info().place);
+        } while (++here != first);
+        const V3d p = place_of(v->point()), along = place_of(w->point()) - p;
+        const double d = along.length();
         if (!whole || !(d > 0)) continue;
-        const double face = std::abs(area.dot(along)) / d, height = 0.5 * (d * d + v->point().weight() - w->point().weight()) / d;
-        if (v->info() != outer) result.volume[static_cast<size_t>(v->info())] += face * height / 3;
-        if (w->info() != outer) result.volume[static_cast<size_t>(w->info())] += face * (d - height) / 3;
+        const double face = area_across(polygon, along / d), height = 0.5 * (d * d + v->point().weight() - w->point().weight()) / d;
+        if (v->info() != outer) cones.emplace_back(static_cast<size_t>(v->info()), face * height / 3);
+        if (w->info() != outer) cones.emplace_back(static_cast<size_t>(w->info()), face * (d - height) / 3);
     }
+    std::ranges::sort(cones);
+    for (const auto& [cell, volume] : cones) result.volume[cell] += volume;
     return result;
 }
 

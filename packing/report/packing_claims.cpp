@@ -81,16 +81,16 @@ Claim contact_value_claim(const PackingReport& r)
     if (g.x_max == 0) return {"contact_value", Verdict::info, "not measured: the packing does not reach far enough around any sphere"};
     const bool mixed = r.fraction.bulk_moments.polydispersity() > 1e-6;
     const std::string theory = fmt::format("{} {:.4f}", mixed ? "Boublík-Mansoori-Carnahan-Starling-Leland" : "Carnahan-Starling (1-f/2)/(1-f)³ =", r.theory_contact);
-    const std::string measured = fmt::format("g(1+) = {:.4f} ± {:.4f} by free paths, {:.4f} ± {:.4f} by extrapolation", g.free_path_contact.value,
-                                             g.free_path_contact.standard_error, g.contact.value, g.contact.standard_error);
+    const std::string measured = fmt::format("g(1+) = {:.4f} ± {:.4f} ({:.4f} ± {:.4f} by extrapolation, {:.4f} ± {:.4f} by free paths)", g.best_contact.value,
+                                             g.best_contact.standard_error, g.contact.value, g.contact.standard_error, g.free_path_contact.value,
+                                             g.free_path_contact.standard_error);
     if (r.fraction.bulk >= freezing || r.fraction.bulk >= 1) {
         return {"contact_value", Verdict::info,
                 fmt::format("no fluid in equilibrium: f = {:.4f} is above freezing, 0.494; {:.2f} contacts a sphere instead of a contact value", r.fraction.bulk, r.near.mean_contacts)};
     }
     if (worst_overlap(r) > 1e-3) return {"contact_value", Verdict::info, "spheres overlap, and theory is of hard ones: " + theory};
     if (crystalline(r)) return {"contact_value", Verdict::info, "crystal, not a fluid: " + measured + "; " + theory};
-    // Of the two the one with the smaller error decides.
-    const Measured& m = g.contact.value > 0 && g.contact.standard_error < g.free_path_contact.standard_error ? g.contact : g.free_path_contact;
+    const Measured& m = g.best_contact;
     const double apart = m.value / r.theory_contact - 1, error = m.standard_error / r.theory_contact;
     const std::string text = fmt::format("{}; {}: {}, standard error {:.2f} %", measured, theory, percent(apart), 100 * error);
     if (!r.source.hard) return {"contact_value", Verdict::info, text + " (of a simulation that need not be in equilibrium)"};

@@ -73,7 +73,7 @@ json correlation_to_json(const PackingReport& r)
     const PairCorrelation& g = r.correlation;
     if (g.x_max == 0) return nullptr;
     return {{"x", "d / (r_i + r_j)"}, {"bin_width", g.bin_width}, {"g", g.g}, {"centres", g.centres},
-            {"contact_value", {{"extrapolated", to_json(g.contact)}, {"fitted_pairs", g.fitted_pairs}, {"free_paths", to_json(g.free_path_contact)},
+            {"contact_value", {{"best", to_json(g.best_contact)}, {"extrapolated", to_json(g.contact)}, {"fitted_pairs", g.fitted_pairs}, {"free_paths", to_json(g.free_path_contact)},
                                {"paths", g.free_paths}, {"theory", number(r.theory_contact)}}},
             {"reduced_pressure", number(g.reduced_pressure)}};
 }

@@ -56,8 +56,8 @@ struct BlockedShells {
 
 double shell_volume(double x, double width) { return 4.0 / 3 * std::numbers::pi * (std::pow(x + width, 3) - x * x * x); }
 
-/// Counts the spheres around sphere i.
-void count_around(const PackedSpheres& spheres, uint64_t i, double first, double width, size_t bins, Shells& shells)
+/// Counts the spheres around sphere i. once: pairs are counted twice for their lower index, and not for the other.
+void count_around(const PackedSpheres& spheres, uint64_t i, double first, double width, size_t bins, bool once, Shells& shells)
 {
     const double r = spheres.radius(i), x_max = first + width * double(bins);
     shells.pairs.resize(bins);
@@ -65,7 +65,8 @@ void count_around(const PackedSpheres& spheres, uint64_t i, double first, double
         const double x = n.offset.length() / (r + n.radius);
         if (x == 0 && n.index == i) return true;
         const double bin = (x - first) / width;
-        if (bin >= 0 && bin < double(bins)) ++shells.pairs[static_cast<size_t>(bin)];
+        if (!(bin >= 0 && bin < double(bins))) return true;
+        shells.pairs[static_cast<size_t>(bin)] += !once || n.index == i ? 1 : n.index > i ? 2 : 0;
         return true;
     });
     shells.cubes += mean_cube(r, spheres.moments());
@@ -111,34 +112,61 @@ double fitted_contact(const Shells& shells, double number_density, double width)
     return whole != 0 ? std::exp(first / whole) : 0;
 }
 
-/// The jackknife over blocks: value(block) is that without it, value(block_count) that of the whole.
+/// A value, and what the jackknife makes of it: its deviations when each block in turn is left out.
+struct Replicates {
+    double value = 0;
+    std::array<double, block_count> deviation{};
+    uint64_t used = 0;
+
+    /// Covariance of two values of the same blocks; infinite where blocks are too few.
+    static double covariance(const Replicates& a, const Replicates& b)
+    {
+        const double n = double(std::min(a.used, b.used));
+        if (n < 8) return infinity;
+        double sum = 0;
+        for (size_t k = 0; k < block_count; ++k) sum += a.deviation[k] * b.deviation[k];
+        return sum * (n - 1) * (n - 1) / (n * (n - 2));
+    }
+    Measured measured() const { return {value, std::sqrt(covariance(*this, *this))}; }
+};
+
+/// value(block) is that without the block, value(block_count) that of the whole.
 ///
 /// A block with more spheres has a higher value, but as the number of spheres is given in all, that is no error of the whole: the
 /// part of the scatter that follows the blocks' counts is taken out by regression.
-template <class Value> Measured jackknife(const std::array<uint64_t, block_count>& counts, const Value& value)
+template <class Value> Replicates jackknife(const std::array<uint64_t, block_count>& counts, const Value& value)
 {
-    Measured result{value(block_count), infinity};
-    std::vector<double> x, y;
+    Replicates result;
+    result.value = value(block_count);
+    for (const uint64_t count : counts) result.used += count > 0;
+    const double n = double(result.used);
+    std::array<double, block_count> x{}, y{};
+    double mean_x = 0, mean_y = 0, xx = 0, xy = 0;
     for (size_t b = 0; b < block_count; ++b) {
         if (counts[b] == 0) continue;
-        x.push_back(double(counts[b]));
-        y.push_back(value(b));
+        x[b] = double(counts[b]);
+        y[b] = value(b);
+        mean_x += x[b] / n;
+        mean_y += y[b] / n;
     }
-    const double n = double(x.size());
-    if (n < 8) return result;
-    double mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0;
-    for (size_t k = 0; k < x.size(); ++k) {
-        mean_x += x[k] / n;
-        mean_y += y[k] / n;
+    for (size_t b = 0; b < block_count; ++b) {
+        if (counts[b] == 0) continue;
+        xx += (x[b] - mean_x) * (x[b] - mean_x);
+        xy += (x[b] - mean_x) * (y[b] - mean_y);
     }
-    for (size_t k = 0; k < x.size(); ++k) {
-        xx += (x[k] - mean_x) * (x[k] - mean_x);
-        xy += (x[k] - mean_x) * (y[k] - mean_y);
-        yy += (y[k] - mean_y) * (y[k] - mean_y);
-    }
-    const double residual = xx > 0 ? std::max(0.0, yy - xy * xy / xx) : yy;
-    result.standard_error = std::sqrt(residual * (n - 1) * (n - 1) / (n * (n - 2)));
+    for (size_t b = 0; b < block_count; ++b)
+        if (counts[b] > 0) result.deviation[b] = y[b] - mean_y - (xx > 0 ? xy / xx * (x[b] - mean_x) : 0);
     return result;
+}
+
+/// w a + (1 - w) b of least variance.
+Measured combined(const Replicates& a, const Replicates& b)
+{
+    const double aa = Replicates::covariance(a, a), bb = Replicates::covariance(b, b), ab = Replicates::covariance(a, b);
+    if (!(a.value > 0) || !std::isfinite(aa)) return b.measured();
+    if (!(b.value > 0) || !std::isfinite(bb)) return a.measured();
+    const double spread = aa + bb - 2 * ab, w = spread > 0 ? std::clamp((bb - ab) / spread, 0.0, 1.0) : 0.5;
+    return {w * a.value + (1 - w) * b.value, std::sqrt(w * w * aa + (1 - w) * (1 - w) * bb + 2 * w * (1 - w) * ab)};
 }
 
 struct PathSums {
@@ -250,7 +278,7 @@ PairCorrelation measure_pair_correlation(const PackedSpheres& spheres, double nu
         Shells part;
         for (uint64_t rank = begin; rank < end; ++rank) {
             const uint64_t i = spheres.ranked(rank).index;
-            if (chosen(i, share) && spheres.in_bulk(spheres.position(i), margin)) count_around(spheres, i, 0, result.bin_width, bins, part);
+            if (chosen(i, share) && spheres.in_bulk(spheres.position(i), margin)) count_around(spheres, i, 0, result.bin_width, bins, false, part);
         }
         return part;
     });
@@ -266,24 +294,28 @@ PairCorrelation measure_pair_correlation(const PackedSpheres& spheres, double nu
 
     const double width = (PairCorrelation::fit_end - 1) / double(near_bins), near_share = share_of(near_budget, 8 * around);
     const double near_margin = 2 * PairCorrelation::fit_end * spheres.largest_radius();
+    // A pair that two blocks share must not be in both, or the jackknife would miss part of its scatter.
+    const bool once = near_share >= 1 && spheres.container() == PackedSpheres::Container::periodic_box;
     const BlockedShells near = ordered_sum<BlockedShells>(spheres.size(), 8192, "contact value", progress, [&](uint64_t begin, uint64_t end) {
         BlockedShells part;
         for (uint64_t rank = begin; rank < end; ++rank) {
             const uint64_t i = spheres.ranked(rank).index;
-            if (chosen(i, near_share) && spheres.in_bulk(spheres.position(i), near_margin)) count_around(spheres, i, 1, width, near_bins, part.blocks[block_of(spheres, i)]);
+            if (chosen(i, near_share) && spheres.in_bulk(spheres.position(i), near_margin)) count_around(spheres, i, 1, width, near_bins, once, part.blocks[block_of(spheres, i)]);
         }
         return part;
     });
     std::array<uint64_t, block_count> counts{};
     for (size_t b = 0; b < block_count; ++b) counts[b] = near.blocks[b].centres;
-    result.contact = jackknife(counts, [&](size_t without) {
+    const Replicates fitted = jackknife(counts, [&](size_t without) {
         Shells sum;
         for (size_t b = 0; b < block_count; ++b)
             if (b != without) sum.add(near.blocks[b]);
         if (without == block_count)
-            for (const uint64_t pairs : sum.pairs) result.fitted_pairs += pairs;
+            for (const uint64_t ends : sum.pairs) result.fitted_pairs += ends;
         return fitted_contact(sum, number_density, width);
     });
+    result.contact = fitted.measured();
+    result.fitted_pairs /= 2; // each was counted from both ends
 
     const uint64_t directions = static_cast<uint64_t>(std::clamp(path_budget / double(spheres.size()), 4.0, 64.0));
     const double path_share = share_of(path_budget, double(directions));
@@ -299,7 +331,7 @@ PairCorrelation measure_pair_correlation(const PackedSpheres& spheres, double nu
         return part;
     });
     result.free_paths = paths.paths;
-    result.free_path_contact = jackknife(paths.spheres, [&](size_t without) {
+    const Replicates by_paths = jackknife(paths.spheres, [&](size_t without) {
         double ends = 0, expected = 0;
         for (size_t b = 0; b < block_count; ++b) {
             if (b == without) continue;
@@ -308,6 +340,8 @@ PairCorrelation measure_pair_correlation(const PackedSpheres& spheres, double nu
         }
         return expected > 0 ? ends / (number_density * expected) : 0;
     });
+    result.free_path_contact = by_paths.measured();
+    result.best_contact = combined(fitted, by_paths);
     result.reduced_pressure = paths.paths > 0 ? 1 + 2.0 / 3 * paths.inverse / double(paths.paths) : 0;
     return result;
 }

@@ -28,6 +28,8 @@ struct PairCorrelation {
     /// so that sum_j <delta(d_ij - s_ij)> = <(2 / l) (one for either end)>, l the length of its way. Exact in equilibrium, and
     /// far less noisy than a fit (the virial theorem along lines); elsewhere a measure of how jammed the spheres are.
     Measured free_path_contact;
+    /// Both together with the weights of least variance, their correlation allowed for.
+    Measured best_contact;
     double reduced_pressure = 0; ///< P V / N k T by the same paths
     uint64_t free_paths = 0;
 };

@@ -23,6 +23,7 @@ table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: 6
 td, th { text-align: left; padding: 3px 18px 3px 0; vertical-align: top; font-weight: normal; }
 thead th { color: #5a6775; border-bottom: 1px solid #dde3e9; }
 .facts th { color: #5a6775; white-space: nowrap; }
+.figures td, .figures th { white-space: nowrap; }
 .verdicts { width: 100%; }
 .verdicts td { border-top: 1px solid #edf0f3; padding-top: 6px; padding-bottom: 6px; }
 .verdicts th { border-top: 1px solid #edf0f3; padding-top: 6px; white-space: nowrap; font-weight: 600; }
@@ -90,7 +91,6 @@ std::string head(const PackingReport& r)
     Rows rows = r.source.facts;
     rows.emplace_back("spheres", fmt::format("{}", r.spheres));
     rows.emplace_back("container", r.container);
-    if (!r.source.mesh.empty()) rows.emplace_back("mesh", r.source.mesh);
     rows.emplace_back("bulk", fmt::format("{} spheres", r.fraction.bulk_spheres));
     html += rows_table(rows);
     for (const std::string& note : r.source.notes) html += fmt::format("<p class=\"note\">Note: {}.</p>\n", xml_escaped(note));
@@ -113,7 +113,7 @@ std::string overlap_section(const PackingReport& r)
 {
     std::string table;
     if (!r.near.worst.empty()) {
-        table = "<table>\n<thead><tr><th>worst pairs: ids</th><th>overlap / smaller radius</th><th>place</th></tr></thead>\n<tbody>\n";
+        table = "<table class=\"figures\">\n<thead><tr><th>worst pairs: ids</th><th>overlap / smaller radius</th><th>place</th></tr></thead>\n<tbody>\n";
         for (const NearPairs::Overlap& o : r.near.worst)
             table += fmt::format("<tr><td>{}, {}</td><td>{:.4g}</td><td>{:.6g}, {:.6g}, {:.6g}</td></tr>\n", o.ids[0], o.ids[1], o.overlap, o.place.x, o.place.y, o.place.z);
         table += "</tbody>\n</table>\n";
@@ -126,7 +126,7 @@ std::string overlap_section(const PackingReport& r)
 std::string containment_section(const PackingReport& r)
 {
     const Containment& c = *r.containment;
-    std::string table = "<table>\n<thead><tr><th>least margins: id</th><th>margin</th><th>radius</th><th>place</th></tr></thead>\n<tbody>\n";
+    std::string table = "<table class=\"figures\">\n<thead><tr><th>least margins: id</th><th>margin</th><th>radius</th><th>place</th></tr></thead>\n<tbody>\n";
     for (const Containment::Sphere& s : c.worst)
         table += fmt::format("<tr><td>{}</td><td>{:.5g}</td><td>{:.5g}</td><td>{:.6g}, {:.6g}, {:.6g}</td></tr>\n", s.id, s.margin, s.radius, s.position.x, s.position.y, s.position.z);
     table += "</tbody>\n</table>\n";
@@ -148,11 +148,14 @@ std::string correlation_section(const PackingReport& r)
 {
     const PairCorrelation& g = r.correlation;
     if (g.x_max == 0) return section(r, "Pair correlation", {"contact_value"}, "", {}, {});
-    const Rows rows{{"around", fmt::format("{} spheres, out to x = {:g}", g.centres, g.x_max)},
-                    {"g(1+) by free paths", fmt::format("{:.5g} ± {:.2g}, {} paths", g.free_path_contact.value, g.free_path_contact.standard_error, g.free_paths)},
-                    {"g(1+) by extrapolation", fmt::format("{:.5g} ± {:.2g}, {} pairs up to x = {:g}", g.contact.value, g.contact.standard_error, g.fitted_pairs, PairCorrelation::fit_end)},
-                    {"g(1+) by theory", number(r.theory_contact)},
-                    {"reduced pressure PV/NkT", number(g.reduced_pressure)}};
+    Rows rows{{"around", fmt::format("{} spheres, out to x = {:g}", g.centres, g.x_max)}};
+    if (r.fraction.bulk < 0.494) { // a peak as narrow as that of a jammed packing cannot be extrapolated
+        rows.emplace_back("g(1+) by extrapolation", fmt::format("{:.5g} ± {:.2g}, {} pairs up to x = {:g}", g.contact.value, g.contact.standard_error, g.fitted_pairs, PairCorrelation::fit_end));
+        rows.emplace_back("g(1+) by free paths", fmt::format("{:.5g} ± {:.2g}, {} paths", g.free_path_contact.value, g.free_path_contact.standard_error, g.free_paths));
+        rows.emplace_back("both together", fmt::format("{:.5g} ± {:.2g}", g.best_contact.value, g.best_contact.standard_error));
+        rows.emplace_back("g(1+) by theory", number(r.theory_contact));
+    }
+    rows.emplace_back("reduced pressure PV/NkT", number(g.reduced_pressure));
     return section(r, "Pair correlation", {"contact_value"},
                    "Free paths: along a random line a sphere in equilibrium is anywhere between the two others it would hit, which gives the contact value without extrapolation. "
                    "Errors are jackknife estimates over 64 blocks of space.",

@@ -21,7 +21,10 @@ FloatMargin::FloatMargin(double extent, double least, double largest)
     // squared distance of the line from the centre; start and centre are within four extents.
     const double error = 0x1p-19 * power_of_two_from(extent);
     // Wider than 2^-9 of a radius would be waste: spheres below 2^-10 of the extent are met less surely at their rim.
-    ulps = static_cast<uint32_t>(std::min(0x1p14, std::ceil(error / least * 0x1p24)));
+    constexpr double most = 0x1p14;
+    const double needed = std::ceil(error / least * 0x1p24);
+    complete = needed <= most;
+    ulps = static_cast<uint32_t>(std::min(most, needed));
     const double wider = largest * ulps * 0x1p-23;
     // The near faces of a sphere and of a wider one are at most this far apart along any line that meets both. As a power of two
     // it is hardly ever different for a fill and for the list of its spheres.

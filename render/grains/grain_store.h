@@ -18,6 +18,7 @@ struct GrainSphere {
 /// it: radii widened by some steps of float, and rays that start a little further back.
 struct FloatMargin {
     uint32_t ulps = 0;    ///< added to the bits of each radius
+    bool complete = false; ///< every sphere that a ray is to enter is proposed by its near face
     double step_back = 0; ///< beyond which a ray's start is outside of every widened sphere that it is yet to enter
 
     FloatMargin() = default;

@@ -142,10 +142,13 @@ void tracer_filter(const RTCFilterFunctionNArguments* args)
     Place place;
     double t;
     if (hit->geomID == Tracer::Impl::analytic_id) {
-        place = {HitKind::grain, hit->primID, no_triangle, world.grains.type_codes[hit->primID]};
+        const bool far_face = hit->Ng_x * query.d.x + hit->Ng_y * query.d.y + hit->Ng_z * query.d.z > 0;
+        if (far_face && world.grains.margin.complete) return;
         // A convex grain is not met again by the ray that leaves it.
-        if (query.from.kind == HitKind::grain && query.from.index == place.index) return;
-        if (!enters_sphere(world.sphere(place.index), query.o, query.d, t)) return;
+        if (query.from.kind == HitKind::grain && query.from.index == hit->primID) return;
+        const GrainStore& grains = world.grains;
+        if (!enters_sphere({grains.centre(hit->primID), grains.radius(hit->primID)}, query.o, query.d, t) || t >= query.best) return;
+        place = {HitKind::grain, hit->primID, no_triangle, grains.type_codes[hit->primID]};
     } else if (hit->geomID == Tracer::Impl::mesh_id) {
         const uint32_t grain = hit->primID + world.grains.analytic_count;
         const GrainSphere sphere = world.sphere(grain);

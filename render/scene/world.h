@@ -45,6 +45,8 @@ struct World {
     LightSet lights;
 
     bool has_grains() const { return fill || grains.size() > 0; }
+    /// How many there are; of a fill about, as nobody has counted them.
+    uint64_t grain_count() const { return fill ? static_cast<uint64_t>(fill->fill().expected_count()) : grains.size(); }
     GrainSphere sphere(uint64_t grain) const
     {
         return fill ? fill->sphere(grain) : GrainSphere{grains.centre(grain), grains.radius(grain)};

@@ -73,7 +73,7 @@ Moments moments_of(const TriangleMesh& mesh)
     return m;
 }
 
-const uint64_t sample_count = 200'000;
+const uint64_t sample_count = 100'000;
 
 /// Mean places and squares are those of the solid: |z| < 4.5 for each of 6 (chance of a false alarm 4e-5 for all together).
 void expect_moments(const InteriorSampler& sampler, const TriangleMesh& mesh)
@@ -124,7 +124,7 @@ void expect_uniform(const InteriorSampler& sampler, const Domain& domain, int ce
 void expect_all_inside(const InteriorSampler& sampler, const Domain& domain)
 {
     const double rounding = 1e-14 * domain.bounds().size().length();
-    for (uint64_t k = 0; k < 20'000; ++k) {
+    for (uint64_t k = 0; k < 5000; ++k) {
         const V3d p = sampler.sample(k, 13);
         ASSERT_TRUE(domain.contains(p) || domain.distance(p) <= rounding) << p;
     }

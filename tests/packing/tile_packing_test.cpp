@@ -98,12 +98,12 @@ TEST(TilePacking, TheSameSeedTheSameTileOnAnyNumberOfThreads)
         PackingTile tiles[2];
         for (int k = 0; k < 2; ++k) {
             const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, k == 0 ? 1 : 2);
-            tiles[k] = tile_of({"lognormal"}, 600, fraction, 2, 4).tile;
+            tiles[k] = tile_of({"lognormal"}, 250, fraction, 2, 4).tile;
         }
         EXPECT_EQ(tiles[0].radius, tiles[1].radius);
         EXPECT_EQ(tiles[0].shared, tiles[1].shared);
         EXPECT_EQ(tiles[0].variants, tiles[1].variants);
-        EXPECT_NE(tiles[0].variants, tile_of({"lognormal"}, 600, fraction, 2, 5).tile.variants);
+        EXPECT_NE(tiles[0].variants, tile_of({"lognormal"}, 250, fraction, 2, 5).tile.variants);
     }
 }
 
@@ -122,7 +122,7 @@ TEST(TilePacking, ScaleDoesNotMatter)
 }
 
 // Jammed packings of equal frictionless spheres: f about 0.64, 6 contacts a sphere without rattlers (O'Hern et al. 2003: phi_J
-// of 0.639 +- 0.015 or so at this N), no crystal. Jammed means isostatic: Nc = 3 N' - 3, z = 6 - 6 / N'.
+// = 0.639 for many spheres; compressed more slowly, up to 0.65), no crystal. Jammed means isostatic: Nc = 3 N' - 3, z = 6 - 6 / N'.
 TEST(TilePacking, EqualSpheresJamAtRandomClosePacking)
 {
     const MadeTile made = tile_of({"mono"}, 2000, std::nullopt);
@@ -135,7 +135,7 @@ TEST(TilePacking, EqualSpheresJamAtRandomClosePacking)
     EXPECT_LT(pairs.rattlers, 0.06 * 2000);
     const BondOrder order = measure_bond_order(packed, 2000 / packed.volume());
     EXPECT_LT(order.crystal_fraction, 0.1);
-    EXPECT_LT(order.global_q6, 4 / std::sqrt(2000 * 6.0)); // some 12 neighbours a sphere, 6 bonds
+    EXPECT_LT(order.global_q6, 0.1); // fcc has 0.575: a crystal of a fifth of the spheres would be seen
 }
 
 TEST(TilePacking, MixturesReachWhatTheLiteratureGives)
@@ -165,7 +165,7 @@ TEST(TilePacking, WhatCannotBeDoneIsSaid)
     EXPECT_THAT(error(300, std::nan("")), HasSubstr("above 0 and below 1"));
     EXPECT_THAT(error(1, 0.5), HasSubstr("more spheres"));
     EXPECT_THAT(error(300, 0.5, 0), HasSubstr("1 variant or more"));
-    EXPECT_THAT(error(8, 0.5, 2), HasSubstr("none of which is wholly inside"));
+    EXPECT_THAT(error(2, 0.2, 2), HasSubstr("none of which is wholly inside"));
     EXPECT_THAT(error(300, 0.5, 1, {1, 0, 1}), HasSubstr("edges above 0"));
     EXPECT_THAT(error(300, 0.5, 1, {1, 100, 1}), HasSubstr("more spheres"));
     EXPECT_THAT(std::string(test::input_error_of([] { make_tile({}, {}, {}); }).value().what()), HasSubstr("no spheres"));
