@@ -15,7 +15,7 @@ namespace scree {
 namespace {
 
 // Sums over fixed blocks, added in their order, are the same for any number of threads.
-constexpr uint64_t block = 256;
+constexpr uint64_t block = 256, chunk = 32;
 constexpr uint32_t body_bits = 27;
 constexpr uint32_t body_mask = (1u << body_bits) - 1;
 
@@ -108,6 +108,9 @@ void TileRelaxation::build_lists(double scale)
             place[b] = wrapped_into(place[b], size_);
         body.x = place[b].x, body.y = place[b].y, body.z = place[b].z;
     }
+    const double widest = 2 * *std::ranges::max_element(radius) + skin_;
+    if (widest > std::min({size_.x, size_.y, size_.z})) // an image's shift is one edge at most
+        throw InputError("tile", "spheres as wide as the cuboid", "room for well more than one of the largest beside another", "more spheres, or a narrower range of radii");
     TileCells cells(size_, radius, skin_);
     cells.fill(place);
     const uint64_t blocks = (body_.size() + block - 1) / block;
@@ -202,7 +205,9 @@ TileRelaxation::Sums TileRelaxation::all_forces(double scale)
 {
     const uint64_t count = body_.size(), blocks = (count + block - 1) / block;
     std::vector<Sums> parts(blocks);
-    tbb::parallel_for(uint64_t{0}, blocks, [&](uint64_t part) { parts[part] = add_forces(scale, part * block, std::min(count, (part + 1) * block)); });
+    tbb::parallel_for(uint64_t{0}, blocks, [&](uint64_t part) { // A chunk's pairs fit the nearest cache.
+        for (uint64_t k = part * block; k < std::min(count, (part + 1) * block); k += chunk) parts[part].add(add_forces(scale, k, std::min(count, k + chunk)));
+    });
     Sums sums;
     for (const Sums& part : parts) sums.add(part);
     return sums;

@@ -19,6 +19,7 @@ constexpr uint64_t choice_seed = 0x63686f69, path_seed = 0x70617468;
 constexpr double pair_budget = 8e7, near_budget = 4e7, path_budget = 4e6;
 constexpr size_t blocks_per_axis = 4, block_count = blocks_per_axis * blocks_per_axis * blocks_per_axis;
 constexpr size_t near_bins = 20;
+constexpr size_t most_neighbours = 200'000; // of one sphere: with more its radius or place is nonsense, and work must end
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 size_t block_of(const PackedSpheres& spheres, uint64_t i)
@@ -60,6 +61,7 @@ double shell_volume(double x, double width) { return 4.0 / 3 * std::numbers::pi 
 void count_around(const PackedSpheres& spheres, uint64_t i, double first, double width, size_t bins, bool once, Shells& shells)
 {
     const double r = spheres.radius(i), x_max = first + width * double(bins);
+    size_t candidates = 0;
     shells.pairs.resize(bins);
     spheres.visit_near(spheres.position(i), r, x_max, [&](const PackedSpheres::Neighbour& n) {
         const double x = n.offset.length() / (r + n.radius);
@@ -67,7 +69,7 @@ void count_around(const PackedSpheres& spheres, uint64_t i, double first, double
         const double bin = (x - first) / width;
         if (!(bin >= 0 && bin < double(bins))) return true;
         shells.pairs[static_cast<size_t>(bin)] += !once || n.index == i ? 1 : n.index > i ? 2 : 0;
-        return true;
+        return ++candidates < most_neighbours;
     });
     shells.cubes += mean_cube(r, spheres.moments());
     ++shells.centres;

@@ -45,52 +45,53 @@ const PackingReport& fluid_report()
     return report;
 }
 
-TEST(ReportFluid, ContactValueIsCarnahanStarlings)
+/// Each test runs in a process of its own, and the report takes seconds: one test asks all of it.
+TEST(ReportFluid, IsWhatTheorySays)
 {
-    const PairCorrelation& g = fluid_report().correlation;
-    const double expected = carnahan_starling_contact(0.3);
-    EXPECT_NEAR(g.free_path_contact.value, expected, 4 * g.free_path_contact.standard_error);
-    EXPECT_LT(g.free_path_contact.standard_error, 0.02 * expected);
-    EXPECT_NEAR(g.contact.value, expected, 4 * g.contact.standard_error);
-    EXPECT_LT(g.contact.standard_error, 0.025 * expected);
-    EXPECT_NEAR(fluid_report().theory_contact, expected, 1e-5);
-}
-
-TEST(ReportFluid, PairCorrelationFollowsPercusYevick)
-{
-    // Percus and Yevick are within 4 % of the fluid beyond 1.1 diameters at this fraction (Verlet, Weis 1972); bins scatter by 2 %.
-    const PairCorrelation& g = fluid_report().correlation;
-    const std::vector<double> theory = percus_yevick(0.3, 100, 5);
-    ASSERT_EQ(g.g.size(), 250u);
-    for (size_t k = 56; k < g.g.size(); ++k) EXPECT_NEAR(g.g[k], theory[2 * k + 1 - 100], 0.1) << k;
-    for (size_t k = 0; k < 49; ++k) EXPECT_EQ(g.g[k], 0);
-}
-
-TEST(ReportFluid, MeanChordWithinOnePercent)
-{
-    const VoidChords& c = fluid_report().chords;
-    EXPECT_NEAR(c.mean.value / (4 * 0.7 * 0.5 / 0.9), 1, 0.01);
-    EXPECT_NEAR(c.mean.value, c.expected, 4 * c.mean.standard_error);
-    EXPECT_LT(c.mean.standard_error, 0.003 * c.expected);
-    EXPECT_NEAR(c.solid_part, 0.3, 2e-3);
-    // The distribution is a density: whole chords, of which few are longer than eight means.
-    double sum = 0, mean = 0;
-    for (size_t k = 0; k < c.density.size(); ++k) {
-        sum += c.density[k] * VoidChords::bin_width;
-        mean += c.density[k] * VoidChords::bin_width * (double(k) + 0.5) * VoidChords::bin_width;
+    {
+        SCOPED_TRACE("the contact value is Carnahan and Starling's");
+        const PairCorrelation& g = fluid_report().correlation;
+        const double expected = carnahan_starling_contact(0.3);
+        EXPECT_NEAR(g.free_path_contact.value, expected, 4 * g.free_path_contact.standard_error);
+        EXPECT_LT(g.free_path_contact.standard_error, 0.02 * expected);
+        EXPECT_NEAR(g.contact.value, expected, 4 * g.contact.standard_error);
+        EXPECT_LT(g.contact.standard_error, 0.025 * expected);
+        EXPECT_NEAR(fluid_report().theory_contact, expected, 1e-5);
     }
-    EXPECT_NEAR(sum, 1, 1e-3);
-    EXPECT_NEAR(mean, 1, 0.01);
-}
-
-TEST(ReportFluid, Claims)
-{
-    for (const auto& [key, verdict] : verdicts_of(fluid_report())) {
-        const bool info = key == "contacts" || key == "profile" || key == "radii";
-        EXPECT_EQ(verdict, info ? Verdict::info : Verdict::pass) << key;
+    {
+        SCOPED_TRACE("the pair correlation follows Percus and Yevick");
+        // Percus and Yevick are within 4 % of the fluid beyond 1.1 diameters at this fraction (Verlet, Weis 1972); bins scatter by 2 %.
+        const PairCorrelation& g = fluid_report().correlation;
+        const std::vector<double> theory = percus_yevick(0.3, 100, 5);
+        ASSERT_EQ(g.g.size(), 250u);
+        for (size_t k = 56; k < g.g.size(); ++k) EXPECT_NEAR(g.g[k], theory[2 * k + 1 - 100], 0.1) << k;
+        for (size_t k = 0; k < 49; ++k) EXPECT_EQ(g.g[k], 0);
     }
-    EXPECT_LT(fluid_report().bonds.crystal_fraction, 0.005);
-    EXPECT_LT(fluid_report().bonds.global_q6, 0.02);
+    {
+        SCOPED_TRACE("the mean chord is within one percent");
+        const VoidChords& c = fluid_report().chords;
+        EXPECT_NEAR(c.mean.value / (4 * 0.7 * 0.5 / 0.9), 1, 0.01);
+        EXPECT_NEAR(c.mean.value, c.expected, 4 * c.mean.standard_error);
+        EXPECT_LT(c.mean.standard_error, 0.003 * c.expected);
+        EXPECT_NEAR(c.solid_part, 0.3, 2e-3);
+        // The distribution is a density: whole chords, of which few are longer than eight means.
+        double sum = 0, mean = 0;
+        for (size_t k = 0; k < c.density.size(); ++k) {
+            sum += c.density[k] * VoidChords::bin_width;
+            mean += c.density[k] * VoidChords::bin_width * (double(k) + 0.5) * VoidChords::bin_width;
+        }
+        EXPECT_NEAR(sum, 1, 1e-3);
+        EXPECT_NEAR(mean, 1, 0.01);
+    }
+    {
+        SCOPED_TRACE("the claims");
+        for (const auto& [key, verdict] : verdicts_of(fluid_report())) {
+            const bool info = key == "contacts" || key == "profile" || key == "radii";
+            EXPECT_EQ(verdict, info ? Verdict::info : Verdict::pass) << key;
+        }
+        EXPECT_LT(fluid_report().bonds.crystal_fraction, 0.005);
+        EXPECT_LT(fluid_report().bonds.global_q6, 0.02);
+    }
 }
 
 TEST(ReportFluid, CompressedFluidThatIsNoneFails)

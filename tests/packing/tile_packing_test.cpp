@@ -201,7 +201,7 @@ TEST(TileRelaxation, TwoSpheresPartAlongTheirLine)
 TEST(TileRelaxation, AFullCuboidBalances)
 {
     TileSpheres spheres;
-    spheres.radius.assign(8, 0.3);
+    spheres.radius.assign(8, 0.3); // an edge holds 2
     for (int i = 0; i < 8; ++i) spheres.place.push_back({0.01 + 0.5 * (i % 2), 0.5 * (i / 2 % 2), 0.5 * (i / 4)});
     TileRelaxation soft(spheres);
     EXPECT_EQ(soft.relax(1, {}, {}), TileRelaxation::Outcome::balanced);
