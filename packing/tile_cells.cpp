@@ -15,6 +15,7 @@ TileCells::TileCells(const Imath::V3d& size, std::span<const double> radii, doub
 {
     if (radii.size() >= (uint64_t{1} << 27))
         throw InputError("tile", fmt::format("{} spheres", radii.size()), "fewer than 2^27", "a tile repeats without end: thousands do");
+    if (radii.empty()) return;
     const double largest = *std::ranges::max_element(radii);
     // Not exactly halves of the largest: sizes are often given from R to 2 R, and those should share a level.
     const auto number = [&](double radius) {

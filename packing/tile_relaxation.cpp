@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <memory>
 #include <numeric>
 
 namespace scree {
@@ -39,6 +39,12 @@ uint32_t morton(const Imath::V3d& place, const Imath::V3d& size)
 }
 
 } // namespace
+
+struct TileRelaxation::Sheet {
+    std::vector<uint32_t> members; ///< bodies
+    std::vector<Imath::V3d> place;
+    std::unique_ptr<TileCells> cells;
+};
 
 struct TileRelaxation::Sums {
     double power = 0, force2 = 0, velocity2 = 0;
@@ -93,6 +99,24 @@ std::vector<Imath::V3d> TileRelaxation::places() const
     return places;
 }
 
+/// The bodies of each sheet with cells of their own: of other sheets a body need not even look at the spheres.
+std::vector<TileRelaxation::Sheet> TileRelaxation::sheets_of(const std::vector<double>& radius, const std::vector<Imath::V3d>& place) const
+{
+    std::vector<Sheet> sheets(1 + *std::ranges::max_element(sheet_));
+    std::vector<std::vector<double>> radii(sheets.size());
+    for (uint32_t b = 0; b < body_.size(); ++b) {
+        Sheet& sheet = sheets[sheet_[b]];
+        sheet.members.push_back(b);
+        sheet.place.push_back(place[b]);
+        radii[sheet_[b]].push_back(radius[b]);
+    }
+    for (size_t k = 0; k < sheets.size(); ++k) {
+        sheets[k].cells = std::make_unique<TileCells>(size_, radii[k], skin_);
+        sheets[k].cells->fill(sheets[k].place);
+    }
+    return sheets;
+}
+
 void TileRelaxation::build_lists(double scale)
 {
     std::vector<double> radius(body_.size());
@@ -111,24 +135,29 @@ void TileRelaxation::build_lists(double scale)
     const double widest = 2 * *std::ranges::max_element(radius) + skin_;
     if (widest > std::min({size_.x, size_.y, size_.z})) // an image's shift is one edge at most
         throw InputError("tile", "spheres as wide as the cuboid", "room for well more than one of the largest beside another", "more spheres, or a narrower range of radii");
-    TileCells cells(size_, radius, skin_);
-    cells.fill(place);
+    const std::vector<Sheet> sheets = sheets_of(radius, place);
     const uint64_t blocks = (body_.size() + block - 1) / block;
     std::vector<std::vector<uint32_t>> found(blocks);
     starts_.assign(body_.size() + 1, 0);
     tbb::parallel_for(uint64_t{0}, blocks, [&](uint64_t part) {
         std::vector<uint32_t>& out = found[part];
-        for (uint64_t b = part * block; b < std::min<uint64_t>(body_.size(), (part + 1) * block); ++b) {
-            const size_t before = out.size();
-            for (size_t level = 0; level < cells.level_count(); ++level)
-                cells.visit_near(level, place[b], radius[b] + cells.level_radius(level) + skin_, [&](uint32_t c, int x, int y, int z) {
-                    // Its own images move with it and push it nowhere.
-                    if (c == b || (sheet_[c] != sheet_[b] && sheet_[c] > 0 && sheet_[b] > 0)) return true;
-                    const Imath::V3d d = place[c] + Imath::V3d(x * size_.x, y * size_.y, z * size_.z) - place[b];
+        const auto look = [&](uint64_t b, const Sheet& sheet) {
+            for (size_t level = 0; level < sheet.cells->level_count(); ++level)
+                sheet.cells->visit_near(level, place[b], radius[b] + sheet.cells->level_radius(level) + skin_, [&](uint32_t member, int x, int y, int z) {
+                    const uint32_t c = sheet.members[member];
+                    if (c == b) return true; // its own images move with it and push it nowhere
+                    const Imath::V3d d = sheet.place[member] + Imath::V3d(x * size_.x, y * size_.y, z * size_.z) - place[b];
                     const double reach = radius[b] + radius[c] + skin_;
                     if (d.length2() < reach * reach) out.push_back(c | static_cast<uint32_t>((x + 1) + 3 * (y + 1) + 9 * (z + 1)) << body_bits);
                     return true;
                 });
+        };
+        for (uint64_t b = part * block; b < std::min<uint64_t>(body_.size(), (part + 1) * block); ++b) {
+            const size_t before = out.size();
+            if (sheet_[b] == 0)
+                for (const Sheet& sheet : sheets) look(b, sheet);
+            else
+                for (const uint32_t sheet : {0u, sheet_[b]}) look(b, sheets[sheet]);
             starts_[b + 1] = out.size() - before;
         }
     });

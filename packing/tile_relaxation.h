@@ -51,7 +51,9 @@ private:
         double x = 0, y = 0, z = 0;
     };
     struct Sums;
+    struct Sheet;
 
+    std::vector<Sheet> sheets_of(const std::vector<double>& radius, const std::vector<Imath::V3d>& place) const;
     void build_lists(double scale);
     Sums add_forces(double scale, uint64_t begin, uint64_t end);
     void push_off_walls(double scale, uint64_t body, Vector& force, Sums& sums) const;

@@ -185,7 +185,7 @@ NearPairs measure_near_pairs(const PackedSpheres& spheres, const Progress& progr
     const Part sum = ordered_sum<Part>(spheres.size(), 4096, "overlaps and contacts", progress, [&](uint64_t begin, uint64_t end) {
         Part part;
         for (uint64_t rank = begin; rank < end; ++rank) {
-            const uint64_t i = spheres.ranked(rank).index;
+            const uint64_t i = spheres.ranked(rank);
             const bool done = spheres.visit_pairs(rank, 1 + 0.5 * largest_gap,
                                                   [&](const PackedSpheres::Neighbour& n) { part.take(spheres, i, n, bulk); });
             part.complete = part.complete && done;

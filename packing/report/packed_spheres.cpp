@@ -43,7 +43,7 @@ PackedSpheres::PackedSpheres(const ParticleFrame& frame, const std::string& plac
     }
     for (V3d& p : position_) p = wrapped(p);
     for (const V3d& p : position_) bounds_.extendBy(p);
-    grid_.emplace(position_, radius_);
+    build_grid();
     if (mesh.domain) {
         container_ = Container::mesh;
         volume_ = mesh.sampler->volume();
@@ -94,6 +94,29 @@ void PackedSpheres::take_box(const SimulationBox& box)
         periodic_[k] = box.periodic[k];
     }
     upright_ = along_axes(box);
+}
+
+void PackedSpheres::build_grid()
+{
+    // Cells as wide as a sphere would be empty for the most part where spheres are far apart, and searches go through all of them:
+    // there the cells are as wide as the mean distance, of the middle half along each axis, as single spheres may be anywhere.
+    double volume = 1;
+    std::vector<double> values(size());
+    for (int axis = 0; axis < 3; ++axis) {
+        for (uint64_t i = 0; i < size(); ++i) values[i] = position_[i][axis];
+        const auto quarter = values.begin() + static_cast<std::ptrdiff_t>(size() / 4), rest = values.begin() + static_cast<std::ptrdiff_t>(size() - 1 - size() / 4);
+        std::nth_element(values.begin(), quarter, values.end());
+        const double low = *quarter;
+        std::nth_element(values.begin(), rest, values.end());
+        volume *= 2 * (*rest - low);
+    }
+    const float least = static_cast<float>(0.5 * std::cbrt(volume / double(size())));
+    std::vector<float> cells = radius_;
+    for (float& r : cells) {
+        widened_ = widened_ || r < least;
+        r = std::max(r, least);
+    }
+    grid_.emplace(position_, cells);
 }
 
 void PackedSpheres::find_bed()
@@ -217,7 +240,7 @@ bool PackedSpheres::covered(const V3d& place) const
     return hit;
 }
 
-const SphereGrid::Entry& PackedSpheres::ranked(uint64_t rank) const
+const SphereGrid::Entry& PackedSpheres::entry(uint64_t rank) const
 {
     size_t level = 0;
     while (rank >= grid_->entries(level).size()) rank -= grid_->entries(level++).size();

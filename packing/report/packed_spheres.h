@@ -91,34 +91,34 @@ public:
             const double reach = stretch * (add + grid_->level_radius(level));
             visit_images(inside, reach, [&](const Imath::V3d& image, int) {
                 going = going && grid_->visit_near(level, image, reach, [&](const SphereGrid::Entry& e) {
-                    return visit(Neighbour{e.index, double(e.radius), e.position - image});
+                    return visit(Neighbour{e.index, radius_of(e), e.position - image});
                 });
             });
         }
         return going;
     }
 
-    /// One after the other, in an order that keeps neighbours together: sphere `rank` of all, from 0.
-    const SphereGrid::Entry& ranked(uint64_t rank) const;
+    /// The index of sphere `rank`, from 0, in an order that keeps neighbours together.
+    uint64_t ranked(uint64_t rank) const { return entry(rank).index; }
 
     /// Calls visit(neighbour) for each pair (once), images included, with d < stretch (r_i + r_j) whose first sphere is
     /// ranked(rank); returns false, having left some out, when there are thousands: radii that are wrong.
     template <class Visit> bool visit_pairs(uint64_t rank, double stretch, const Visit& visit) const
     {
-        const SphereGrid::Entry& self = ranked(rank);
+        const SphereGrid::Entry& self = entry(rank);
         size_t candidates = 0;
         bool complete = true;
         const size_t own = level_of(rank);
         for (size_t level = own; level < grid_->level_count(); ++level) {
-            const double reach = stretch * (self.radius + grid_->level_radius(level));
+            const double reach = stretch * (radius_of(self) + grid_->level_radius(level));
             visit_images(self.position, reach, [&](const Imath::V3d& image, int side) {
                 complete = complete && grid_->visit_near(level, image, reach, [&](const SphereGrid::Entry& e) {
                     if (++candidates > 4096) return false;
                     // Of two of one level the lower index asks; of two images of itself a sphere asks for one.
                     if (level == own && (e.index < self.index || (e.index == self.index && side <= 0))) return true;
                     const Imath::V3d offset = e.position - image;
-                    const double touch = stretch * (double(self.radius) + double(e.radius));
-                    if (offset.length2() < touch * touch) visit(Neighbour{e.index, double(e.radius), offset});
+                    const double radius = radius_of(e), touch = stretch * (radius_of(self) + radius);
+                    if (offset.length2() < touch * touch) visit(Neighbour{e.index, radius, offset});
                     return true;
                 });
             });
@@ -137,6 +137,9 @@ private:
     void take_spheres(const ParticleFrame& frame, const std::string& place);
     void take_box(const SimulationBox& box);
     void find_bed();
+    void build_grid();
+    const SphereGrid::Entry& entry(uint64_t rank) const;
+    double radius_of(const SphereGrid::Entry& e) const { return widened_ ? double(radius_[e.index]) : double(e.radius); }
     Imath::V3d wrapped(Imath::V3d place) const;
     size_t level_of(uint64_t rank) const;
 
@@ -176,6 +179,7 @@ private:
     std::array<double, 3> height_{0, 0, 0};
     Imath::V3d box_lo_{0};
     std::optional<SphereGrid> grid_;
+    bool widened_ = false; ///< radii of the grid's entries are for its cells only
 };
 
 } // namespace scree

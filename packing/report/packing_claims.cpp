@@ -66,7 +66,7 @@ Claim containment_claim(const PackingReport& r)
 Claim chord_claim(const PackingReport& r)
 {
     const VoidChords& c = r.chords;
-    if (c.lines == 0) return {"chords", Verdict::info, "not measured: no bulk to draw lines in"};
+    if (c.lines == 0) return {"chords", Verdict::info, "not measured: no line in the bulk meets a sphere"};
     const double apart = c.mean.value / c.expected - 1, error = std::hypot(c.mean.standard_error / c.mean.value, c.expected_error / c.expected);
     const std::string text = fmt::format("mean void chord {:.5g} ± {:.2g} along {} lines, 4(1-f)<r³>/(3f<r²>) = {:.5g}: {}", c.mean.value, c.mean.standard_error, c.lines,
                                          c.expected, percent(apart));
@@ -81,9 +81,10 @@ Claim contact_value_claim(const PackingReport& r)
     if (g.x_max == 0) return {"contact_value", Verdict::info, "not measured: the packing does not reach far enough around any sphere"};
     const bool mixed = r.fraction.bulk_moments.polydispersity() > 1e-6;
     const std::string theory = fmt::format("{} {:.4f}", mixed ? "Boublík-Mansoori-Carnahan-Starling-Leland" : "Carnahan-Starling (1-f/2)/(1-f)³ =", r.theory_contact);
-    const std::string measured = fmt::format("g(1+) = {:.4f} ± {:.4f} ({:.4f} ± {:.4f} by extrapolation, {:.4f} ± {:.4f} by free paths)", g.best_contact.value,
-                                             g.best_contact.standard_error, g.contact.value, g.contact.standard_error, g.free_path_contact.value,
-                                             g.free_path_contact.standard_error);
+    std::string measured = fmt::format("g(1+) = {:.4f} ± {:.4f}", g.best_contact.value, g.best_contact.standard_error);
+    if (g.free_paths > 0)
+        measured += fmt::format(" ({:.4f} ± {:.4f} by extrapolation, {:.4f} ± {:.4f} by free paths)", g.contact.value, g.contact.standard_error,
+                                g.free_path_contact.value, g.free_path_contact.standard_error);
     if (r.fraction.bulk >= freezing || r.fraction.bulk >= 1) {
         return {"contact_value", Verdict::info,
                 fmt::format("no fluid in equilibrium: f = {:.4f} is above freezing, 0.494; {:.2f} contacts a sphere instead of a contact value", r.fraction.bulk, r.near.mean_contacts)};
@@ -91,6 +92,7 @@ Claim contact_value_claim(const PackingReport& r)
     if (worst_overlap(r) > 1e-3) return {"contact_value", Verdict::info, "spheres overlap, and theory is of hard ones: " + theory};
     if (crystalline(r)) return {"contact_value", Verdict::info, "crystal, not a fluid: " + measured + "; " + theory};
     const Measured& m = g.best_contact;
+    if (!(m.value > 0)) return {"contact_value", Verdict::info, "too few pairs are near contact to tell; " + theory};
     const double apart = m.value / r.theory_contact - 1, error = m.standard_error / r.theory_contact;
     const std::string text = fmt::format("{}; {}: {}, standard error {:.2f} %", measured, theory, percent(apart), 100 * error);
     if (!r.source.hard) return {"contact_value", Verdict::info, text + " (of a simulation that need not be in equilibrium)"};

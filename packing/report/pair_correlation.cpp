@@ -19,7 +19,6 @@ constexpr uint64_t choice_seed = 0x63686f69, path_seed = 0x70617468;
 constexpr double pair_budget = 8e7, near_budget = 4e7, path_budget = 4e6;
 constexpr size_t blocks_per_axis = 4, block_count = blocks_per_axis * blocks_per_axis * blocks_per_axis;
 constexpr size_t near_bins = 20;
-constexpr size_t most_neighbours = 200'000; // of one sphere: with more its radius or place is nonsense, and work must end
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 size_t block_of(const PackedSpheres& spheres, uint64_t i)
@@ -61,15 +60,16 @@ double shell_volume(double x, double width) { return 4.0 / 3 * std::numbers::pi 
 void count_around(const PackedSpheres& spheres, uint64_t i, double first, double width, size_t bins, bool once, Shells& shells)
 {
     const double r = spheres.radius(i), x_max = first + width * double(bins);
-    size_t candidates = 0;
+    // With far more neighbours than there is room for, radii or places are nonsense, and work must end.
+    const double expected = 4.0 / 3 * std::numbers::pi * std::pow(x_max, 3) * mean_cube(r, spheres.moments()) * double(spheres.size()) / std::max(spheres.volume(), 1e-300);
+    const double most = 5000 + 100 * expected;
+    double candidates = 0;
     shells.pairs.resize(bins);
     spheres.visit_near(spheres.position(i), r, x_max, [&](const PackedSpheres::Neighbour& n) {
-        const double x = n.offset.length() / (r + n.radius);
-        if (x == 0 && n.index == i) return true;
-        const double bin = (x - first) / width;
-        if (!(bin >= 0 && bin < double(bins))) return true;
-        shells.pairs[static_cast<size_t>(bin)] += !once || n.index == i ? 1 : n.index > i ? 2 : 0;
-        return ++candidates < most_neighbours;
+        const double x = n.offset.length() / (r + n.radius), bin = (x - first) / width;
+        const bool itself = x == 0 && n.index == i;
+        if (!itself && bin >= 0 && bin < double(bins)) shells.pairs[static_cast<size_t>(bin)] += !once || n.index == i ? 1 : n.index > i ? 2 : 0;
+        return ++candidates < most;
     });
     shells.cubes += mean_cube(r, spheres.moments());
     ++shells.centres;
@@ -201,11 +201,10 @@ void collide(const V3d& offset, double touch, const V3d& direction, double from,
     if (way >= from && way < nearest.way) nearest = {way, touch};
 }
 
-/// Marches on from `from`, where the nearest collision is not nearer.
-Collision march(const PackedSpheres& spheres, const V3d& start, double radius, const V3d& direction, double from)
+/// Marches on by steps from `from`, where the nearest collision is not nearer.
+Collision march(const PackedSpheres& spheres, const V3d& start, double radius, const V3d& direction, double from, double step)
 {
     Collision nearest;
-    double step = 2 * radius;
     for (int k = 0; k < 256 && nearest.way == infinity; ++k, from += step) {
         const V3d middle = start + (from + 0.5 * step) * direction;
         spheres.visit_near(middle, radius + 0.5 * step, 1, [&](const PackedSpheres::Neighbour& n) {
@@ -251,7 +250,7 @@ void free_paths_of(const PackedSpheres& spheres, uint64_t i, uint64_t directions
             if (to < end.way) end = {to, touch};
         }
         for (int side = 0; side < 2; ++side)
-            if (ends[side].way > way) ends[side] = march(spheres, spheres.position(i), r, side == 0 ? u : -u, way);
+            if (ends[side].way > way) ends[side] = march(spheres, spheres.position(i), r, side == 0 ? u : -u, way, way);
         const double length = ends[0].way + ends[1].way;
         ++sums.paths;
         sums.expected[block] += 4 * std::numbers::pi * mean_cube(r, spheres.moments());
@@ -279,7 +278,7 @@ PairCorrelation measure_pair_correlation(const PackedSpheres& spheres, double nu
     const Shells far = ordered_sum<Shells>(spheres.size(), 2048, "pair correlation", progress, [&](uint64_t begin, uint64_t end) {
         Shells part;
         for (uint64_t rank = begin; rank < end; ++rank) {
-            const uint64_t i = spheres.ranked(rank).index;
+            const uint64_t i = spheres.ranked(rank);
             if (chosen(i, share) && spheres.in_bulk(spheres.position(i), margin)) count_around(spheres, i, 0, result.bin_width, bins, false, part);
         }
         return part;
@@ -301,7 +300,7 @@ PairCorrelation measure_pair_correlation(const PackedSpheres& spheres, double nu
     const BlockedShells near = ordered_sum<BlockedShells>(spheres.size(), 8192, "contact value", progress, [&](uint64_t begin, uint64_t end) {
         BlockedShells part;
         for (uint64_t rank = begin; rank < end; ++rank) {
-            const uint64_t i = spheres.ranked(rank).index;
+            const uint64_t i = spheres.ranked(rank);
             if (chosen(i, near_share) && spheres.in_bulk(spheres.position(i), near_margin)) count_around(spheres, i, 1, width, near_bins, once, part.blocks[block_of(spheres, i)]);
         }
         return part;
@@ -319,15 +318,22 @@ PairCorrelation measure_pair_correlation(const PackedSpheres& spheres, double nu
     result.contact = fitted.measured();
     result.fitted_pairs /= 2; // each was counted from both ends
 
-    const uint64_t directions = static_cast<uint64_t>(std::clamp(path_budget / double(spheres.size()), 4.0, 64.0));
-    const double path_share = share_of(path_budget, double(directions));
-    // Twice the mean way of a point-like sphere among others.
-    const double way = 2 / (number_density * std::numbers::pi * (2 * spheres.moments().m[2] + 2 * std::pow(spheres.moments().m[1], 2)));
+    // The mean way of one side of a point-like sphere among others, and how far one looks before marching on.
+    const RadiusMoments& m = spheres.moments();
+    const double mean_way = 1 / (number_density * std::numbers::pi * (2 * m.m[2] + 2 * m.m[1] * m.m[1])), spacing = 1 / std::cbrt(number_density);
+    const double way = std::min(2 * mean_way, 2 * spacing);
+    if (mean_way > 10 * spacing) { // too dilute for paths, and for contacts to matter
+        result.best_contact = result.contact;
+        return result;
+    }
+    const double path_cost = std::max(1.0, 4 * mean_way / spacing);
+    const uint64_t directions = static_cast<uint64_t>(std::clamp(path_budget / path_cost / double(spheres.size()), 4.0, 64.0));
+    const double path_share = share_of(path_budget, path_cost * double(directions));
     const PathSums paths = ordered_sum<PathSums>(spheres.size(), 2048, "free paths", progress, [&](uint64_t begin, uint64_t end) {
         PathSums part;
         std::vector<std::pair<V3d, double>> buffer;
         for (uint64_t rank = begin; rank < end; ++rank) {
-            const uint64_t i = spheres.ranked(rank).index;
+            const uint64_t i = spheres.ranked(rank);
             if (chosen(i, path_share) && spheres.in_bulk(spheres.position(i), near_margin)) free_paths_of(spheres, i, directions, way, buffer, part);
         }
         return part;

@@ -151,11 +151,11 @@ std::string correlation_section(const PackingReport& r)
     Rows rows{{"around", fmt::format("{} spheres, out to x = {:g}", g.centres, g.x_max)}};
     if (r.fraction.bulk < 0.494) { // a peak as narrow as that of a jammed packing cannot be extrapolated
         rows.emplace_back("g(1+) by extrapolation", fmt::format("{:.5g} ± {:.2g}, {} pairs up to x = {:g}", g.contact.value, g.contact.standard_error, g.fitted_pairs, PairCorrelation::fit_end));
-        rows.emplace_back("g(1+) by free paths", fmt::format("{:.5g} ± {:.2g}, {} paths", g.free_path_contact.value, g.free_path_contact.standard_error, g.free_paths));
+        if (g.free_paths > 0) rows.emplace_back("g(1+) by free paths", fmt::format("{:.5g} ± {:.2g}, {} paths", g.free_path_contact.value, g.free_path_contact.standard_error, g.free_paths));
         rows.emplace_back("both together", fmt::format("{:.5g} ± {:.2g}", g.best_contact.value, g.best_contact.standard_error));
         rows.emplace_back("g(1+) by theory", number(r.theory_contact));
     }
-    rows.emplace_back("reduced pressure PV/NkT", number(g.reduced_pressure));
+    if (g.free_paths > 0) rows.emplace_back("reduced pressure PV/NkT", number(g.reduced_pressure));
     return section(r, "Pair correlation", {"contact_value"},
                    "Free paths: along a random line a sphere in equilibrium is anywhere between the two others it would hit, which gives the contact value without extrapolation. "
                    "Errors are jackknife estimates over 64 blocks of space.",

@@ -104,7 +104,7 @@ VoidChords measure_void_chords(const PackedSpheres& spheres, const SolidFraction
     // d ln(chord) / d ln(f) = -1 / (1 - f)
     result.expected_error = result.expected * fraction.bulk_error / (fraction.bulk * (1 - fraction.bulk));
     const double period = result.expected + 4.0 / 3 * m.m[3] / m.m[2], length = periods_per_line * period;
-    const double step = 2 * m.m[1];
+    const double step = std::max(2 * m.m[1], 1 / std::cbrt(fraction.number_density()));
     // Very dilute spheres: fewer lines, so that the steps between them stay some ten million.
     const double affordable = 1.5e7 / (length / step);
     const auto lines = static_cast<uint64_t>(std::clamp(wanted_entries / periods_per_line, 1.0, std::min(most_lines, affordable)));
