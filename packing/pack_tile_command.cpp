@@ -26,7 +26,7 @@ struct TileJob {
     std::string output, fraction = "max", size = "1x1x1", radii_from, from, region;
     std::vector<std::string> sizes{"mono"}, radii;
     uint64_t spheres = 10000, seed = 0, sweeps = 0;
-    uint32_t variants = 4;
+    std::optional<uint32_t> variants;
     int64_t frame = -1;
     int threads = 0;
     bool sweeps_given = false, quiet = false;
@@ -61,12 +61,15 @@ TileOptions options_of(const TileJob& job)
     TileOptions options;
     const std::vector<double> size = parse_numbers("--size", job.size, 'x', 3, "AxBxC, e.g. 1x1x2");
     options.size = {size[0], size[1], size[2]};
-    options.variants = job.variants;
     options.seed = job.seed;
     if (job.sweeps_given) options.sweeps = job.sweeps;
-    if (job.fraction == "max") return options;
-    options.fraction = to_double(job.fraction);
-    if (!options.fraction) throw InputError("--fraction", in_quotes(job.fraction), "a number above 0 and below 1, or max");
+    if (job.fraction != "max") {
+        options.fraction = to_double(job.fraction);
+        if (!options.fraction) throw InputError("--fraction", in_quotes(job.fraction), "a number above 0 and below 1, or max");
+    }
+    // Dense variants take minutes each: their faces are given.
+    const bool dense = options.fraction.value_or(1) > 0.62 && job.from.empty();
+    options.variants = job.variants.value_or(dense ? 1 : options.variants);
     return options;
 }
 
@@ -159,7 +162,7 @@ void add_pack_tile_command(CLI::App& pack)
         ->expected(1, 4)->capture_default_str();
     command->add_option("--radii-from", job->radii_from, "Draw the radii from those of a dump");
     command->add_option("--size", job->size, "Edges of the cuboid")->capture_default_str();
-    command->add_option("--variants", job->variants, "Variants: of the same spheres, alike at the faces, different inside")->check(CLI::Range(0u, 64u))->capture_default_str();
+    command->add_option("--variants", job->variants, "Variants: of the same spheres, alike at the faces, different inside (default 4; above fraction 0.62, where each takes minutes, 1)")->check(CLI::Range(0u, 64u));
     command->add_option("--seed", job->seed, "The same seed makes the same tile")->capture_default_str();
     CLI::Option* sweeps = command->add_option("--sweeps", job->sweeps, "Monte Carlo sweeps instead of as many as a fluid needs");
     command->add_option("--from", job->from, "Cut the tile out of a dump's periodic box, places and types and all");
