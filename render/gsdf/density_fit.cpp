@@ -1,0 +1,239 @@
+#include "render/gsdf/density_fit.h"
+
+#include <tbb/parallel_for.h>
+
+#include <bit>
+
+namespace scree {
+
+namespace {
+
+using Grid = DirectionGrid;
+using Field = std::vector<double>; // strata * cells
+
+constexpr uint32_t strata = Gsdf::strata, cells = Gsdf::cells;
+constexpr int rows = Grid::rows, columns = Grid::columns;
+
+size_t at(uint32_t stratum, int row, int column)
+{
+    if (row < 0 || row >= rows) { // across a pole
+        row = row < 0 ? -1 - row : 2 * rows - 1 - row;
+        column += columns / 2;
+    }
+    return static_cast<size_t>(stratum) * cells + static_cast<size_t>(row * columns + (column + columns) % columns);
+}
+
+/// Columns of a row that count together, as they are narrower near the poles than rows are wide.
+int group_of(int row)
+{
+    const double sine = std::sin((row + 0.5) * Grid::row_width);
+    const int groups = std::clamp(static_cast<int>(std::bit_floor(static_cast<unsigned>(std::ceil(2 * columns * sine)))), 1, columns);
+    return columns / groups;
+}
+
+/// Density of a half by counting; `total` receives how many fell into each stratum.
+Field count_density(const DirectionCounts& counts, std::array<double, strata>& total)
+{
+    Field density(counts.size());
+    for (uint32_t s = 0; s < strata; ++s) {
+        total[s] = 0;
+        for (uint32_t c = 0; c < cells; ++c) total[s] += static_cast<double>(counts[static_cast<size_t>(s) * cells + c]);
+        for (int row = 0; row < rows; ++row) {
+            const int group = group_of(row);
+            const double solid_angle = Grid::area(static_cast<uint32_t>(row * columns)) * group;
+            for (int first = 0; first < columns; first += group) {
+                double n = 0;
+                for (int i = 0; i < group; ++i) n += static_cast<double>(counts[at(s, row, first + i)]);
+                const double value = total[s] > 0 ? n / (total[s] * solid_angle) : 1 / (4 * pi);
+                for (int i = 0; i < group; ++i) density[at(s, row, first + i)] = value;
+            }
+        }
+    }
+    return density;
+}
+
+/// One pass of the filter 1/4, 1/2, 1/4 along an axis: 0 rows, 1 columns, 2 strata.
+void smooth_once(Field& field, Field& scratch, int axis)
+{
+    scratch = field;
+    tbb::parallel_for(0u, strata, [&](uint32_t s) {
+        for (int row = 0; row < rows; ++row) {
+            for (int column = 0; column < columns; ++column) {
+                const size_t here = at(s, row, column);
+                size_t low, high;
+                if (axis == 0) {
+                    low = at(s, row - 1, column);
+                    high = at(s, row + 1, column);
+                } else if (axis == 1) {
+                    low = at(s, row, column - 1);
+                    high = at(s, row, column + 1);
+                } else {
+                    low = s > 0 ? here - cells : here;
+                    high = s + 1 < strata ? here + cells : here;
+                }
+                field[here] = 0.5 * scratch[here] + 0.25 * (scratch[low] + scratch[high]);
+            }
+        }
+    });
+}
+
+Field filtered(Field field, const std::array<int, 3>& passes)
+{
+    Field scratch;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int i = 0; i < passes[static_cast<size_t>(axis)]; ++i) smooth_once(field, scratch, axis);
+    }
+    return field;
+}
+
+void mirror(Field& field)
+{
+    for (uint32_t s = 0; s < strata; ++s) {
+        for (int row = 0; row < rows; ++row) {
+            for (int column = 0; column < columns / 2; ++column) {
+                double& a = field[at(s, row, column)];
+                double& b = field[at(s, row, columns - 1 - column)];
+                a = b = 0.5 * (a + b);
+            }
+        }
+    }
+}
+
+Field smoothed(const Field& field, const Smoothing& how)
+{
+    Field base = field;
+    if (how.mirror) mirror(base);
+    if (how.passes == std::array<int, 3>{}) return base;
+    Field result = filtered(base, how.passes);
+    if (!how.twice) return result;
+    for (size_t i = 0; i < base.size(); ++i) base[i] -= result[i];
+    const Field rest = filtered(std::move(base), how.passes);
+    for (size_t i = 0; i < rest.size(); ++i) result[i] = std::max(0.0, result[i] + rest[i]);
+    return result;
+}
+
+/// Weighs the fit of two densities.
+class Judge {
+public:
+    Judge(const std::array<DirectionCounts, 2>& halves, const std::array<double, strata>& stratum_mass) : mass_(stratum_mass)
+    {
+        for (size_t half = 0; half < 2; ++half) density_[half] = count_density(halves[half], total_[half]);
+        Field both(density_[0].size());
+        for (size_t i = 0; i < both.size(); ++i) both[i] = 0.5 * (density_[0][i] + density_[1][i]);
+        expected_ = filtered(both, {2, 2, 2});
+        for (double& e : expected_) e += 1e-3 / (4 * pi); // what is hardly ever scattered into does not count
+    }
+
+    struct Verdict {
+        double half = 0; ///< squared error of a smoothed half
+        double full = 0; ///< of both halves together
+    };
+
+    Verdict judge(const Smoothing& how) const
+    {
+        const Field a = smoothed(density_[0], how), b = smoothed(density_[1], how);
+        // What a half foretells is off from the other by its own error and by the other's noise, which is known: Poisson's.
+        double foretold = 0, noise = 0, difference = 0;
+        for (uint32_t s = 0; s < strata; ++s) {
+            double sum = 0, own = 0, apart = 0;
+            for (int row = 0; row < rows; ++row) {
+                const double area = Grid::area(static_cast<uint32_t>(row * columns)), grouped = area * group_of(row);
+                for (int column = 0; column < columns; ++column) {
+                    const size_t i = at(s, row, column);
+                    const double weight = area / expected_[i];
+                    const double x = a[i] - density_[1][i], y = b[i] - density_[0][i], z = a[i] - b[i];
+                    sum += 0.5 * weight * (x * x + y * y);
+                    apart += weight * z * z;
+                    for (size_t half = 0; half < 2; ++half) {
+                        if (total_[half][s] > 0) own += 0.5 * weight * density_[half][i] / (total_[half][s] * grouped);
+                    }
+                }
+            }
+            foretold += mass_[s] * sum;
+            noise += mass_[s] * own;
+            difference += mass_[s] * apart;
+        }
+        const double half = foretold - noise;
+        return {half, half - difference / 4};
+    }
+
+    Field fit(const Smoothing& how) const
+    {
+        Field both(density_[0].size());
+        for (uint32_t s = 0; s < strata; ++s) {
+            const double sum = total_[0][s] + total_[1][s];
+            const double share = sum > 0 ? total_[0][s] / sum : 0.5;
+            for (size_t i = at(s, 0, 0); i < at(s, 0, 0) + cells; ++i) both[i] = share * density_[0][i] + (1 - share) * density_[1][i];
+        }
+        return smoothed(both, how);
+    }
+
+private:
+    std::array<Field, 2> density_;
+    std::array<std::array<double, strata>, 2> total_;
+    std::array<double, strata> mass_;
+    Field expected_;
+};
+
+/// Scales rows, the same in all strata, until as much is scattered into each as was counted; and strata to a mass of 1.
+std::vector<float> keep_rows(Field density, const Field& counted, const std::array<double, strata>& stratum_mass)
+{
+    for (int iteration = 0; iteration < 8; ++iteration) {
+        for (uint32_t s = 0; s < strata; ++s) {
+            double sum = 0;
+            for (uint32_t c = 0; c < cells; ++c) sum += density[at(s, 0, 0) + c] * Grid::area(c);
+            for (uint32_t c = 0; c < cells; ++c) density[at(s, 0, 0) + c] /= sum;
+        }
+        for (int row = 0; row < rows && iteration < 7; ++row) {
+            double wanted = 0, found = 0;
+            for (uint32_t s = 0; s < strata; ++s) {
+                for (int column = 0; column < columns; ++column) {
+                    wanted += stratum_mass[s] * counted[at(s, row, column)];
+                    found += stratum_mass[s] * density[at(s, row, column)];
+                }
+            }
+            if (!(found > 0)) continue;
+            for (uint32_t s = 0; s < strata; ++s) {
+                for (int column = 0; column < columns; ++column) density[at(s, row, column)] *= wanted / found;
+            }
+        }
+    }
+    return {density.begin(), density.end()};
+}
+
+} // namespace
+
+DensityFit fit_density(const std::array<DirectionCounts, 2>& halves, const std::array<double, strata>& stratum_mass)
+{
+    const Judge judge(halves, stratum_mass);
+    DensityFit fit;
+    Judge::Verdict best = judge.judge(fit.smoothing);
+    const auto better = [&](const Smoothing& how) {
+        const Judge::Verdict verdict = judge.judge(how);
+        if (verdict.half >= best.half) return false;
+        best = verdict;
+        fit.smoothing = how;
+        return true;
+    };
+    Smoothing mirrored = fit.smoothing;
+    mirrored.mirror = true;
+    better(mirrored);
+    for (bool any = true; any;) {
+        any = false;
+        const Smoothing from = fit.smoothing;
+        for (size_t axis = 0; axis < 3; ++axis) {
+            for (const bool twice : {false, true}) {
+                Smoothing next = from;
+                next.passes[axis] = std::max(1, 2 * next.passes[axis]);
+                next.twice = twice;
+                if (next.passes[axis] <= 64) any = better(next) || any;
+            }
+        }
+    }
+    // Of errors like a Gaussian's, the mean is sqrt(2 / pi) of the root mean square.
+    fit.error = std::sqrt(2 / pi * std::max(0.0, best.full));
+    fit.density = keep_rows(judge.fit(fit.smoothing), judge.fit({}), stratum_mass);
+    return fit;
+}
+
+} // namespace scree

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "render/math.h"
+
+namespace scree {
+
+/// Cells over the sphere of directions, equally wide in the polar angle and in azimuth, in the frame of an encounter (see
+/// Encounter); a cell is a row (polar angle, from straight on to straight back) and a column.
+struct DirectionGrid {
+    static constexpr uint32_t rows = 64, columns = 32, cells = rows * columns;
+    static constexpr double row_width = pi / rows, column_width = 2 * pi / columns;
+
+    /// Polar angle and azimuth (0..2 pi) of a unit vector.
+    static V2d angles(const V3d& w)
+    {
+        const double phi = std::atan2(w.y, w.x);
+        return {std::atan2(std::hypot(w.x, w.y), w.z), phi < 0 ? phi + 2 * pi : phi};
+    }
+    static V3d direction(double theta, double phi)
+    {
+        return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+    }
+    static uint32_t cell(const V2d& angles)
+    {
+        const auto row = std::min(rows - 1, static_cast<uint32_t>(angles.x / row_width));
+        return row * columns + std::min(columns - 1, static_cast<uint32_t>(angles.y / column_width));
+    }
+    static V3d centre(uint32_t cell)
+    {
+        return direction((cell / columns + 0.5) * row_width, (cell % columns + 0.5) * column_width);
+    }
+    /// Solid angle of a cell.
+    static double area(uint32_t cell)
+    {
+        const double lower = cell / columns * row_width;
+        return 2 * column_width * std::sin(lower + 0.5 * row_width) * std::sin(0.5 * row_width);
+    }
+};
+
+} // namespace scree

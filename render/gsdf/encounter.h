@@ -1,0 +1,27 @@
+#pragma once
+
+#include "render/math.h"
+
+namespace scree {
+
+/// The frame in which a grain's scattering is recorded: z along the ray that comes in, the ray's entry into the unit
+/// bounding sphere in the plane of z and x, at (b, 0, -cos beta_o), b = sin beta_o >= 0.
+struct Encounter {
+    V3d x, y, z;
+    double q = 0; ///< b^2 = sin^2 beta_o in 0..1: for light from afar it is uniform
+
+    /// entry: unit, where the ray along `direction` (unit) enters, from the sphere's centre.
+    Encounter(const V3d& entry, const V3d& direction) : z(direction)
+    {
+        const V3d across = entry - entry.dot(direction) * direction;
+        const double b2 = across.length2();
+        q = std::min(b2, 1.0);
+        x = b2 > 0 ? across / std::sqrt(b2) : Frame(direction).s;
+        y = z.cross(x);
+    }
+    double cos_beta() const { return std::sqrt(1 - q); }
+    V3d to_world(const V3d& v) const { return v.x * x + v.y * y + v.z * z; }
+    V3d to_local(const V3d& v) const { return {v.dot(x), v.dot(y), v.dot(z)}; }
+};
+
+} // namespace scree
