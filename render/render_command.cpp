@@ -96,7 +96,7 @@ void take_over(Arguments& a)
         job.aov.push_back(static_cast<Aov>(it - aov_names.begin()));
     }
     const std::vector<std::string> strategies{"both", "lights", "scattering"};
-    job.options.ept.direct_light = static_cast<DirectLight>(std::find(strategies.begin(), strategies.end(), a.strategy) - strategies.begin());
+    job.options.path.direct_light = static_cast<DirectLight>(std::find(strategies.begin(), strategies.end(), a.strategy) - strategies.begin());
 }
 
 } // namespace

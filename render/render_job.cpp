@@ -206,7 +206,7 @@ private:
 
         const Camera camera = make_camera(scene_, world->space);
         RenderOptions options = job_.options;
-        options.ept.max_depth = scene_.max_depth;
+        options.path.max_depth = scene_.max_depth;
         if (job_.spp) options.spp = *job_.spp;
         else if (options.timeout > 0) options.spp = 1u << 30;
         if (job_.debug_sample) {
@@ -219,7 +219,7 @@ private:
         }
         Film film = make_film(job_, scene_.film);
         const std::filesystem::path checkpoint = frame_path(outputs_[0], frame, many) + ".checkpoint";
-        const uint64_t estimator = mix64(options.ept.max_depth * uint64_t{4} + static_cast<uint64_t>(options.ept.direct_light));
+        const uint64_t estimator = mix64(options.path.max_depth * uint64_t{4} + static_cast<uint64_t>(options.path.direct_light));
         const CheckpointKey key{mix64(builder_.scene_hash() ^ estimator), options.seed};
         if (job_.resume && std::filesystem::exists(checkpoint)) read_checkpoint(checkpoint, film, key);
 

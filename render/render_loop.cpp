@@ -78,7 +78,7 @@ PathResult render_sample(const World& world, const Tracer& tracer, const Camera&
     const double u1 = sampler.next(), u2 = sampler.next(), u3 = sampler.next(), u4 = sampler.next();
     const V2d film = V2d(x + 0.5, y + 0.5) + filter.sample(u1, u2);
     const CameraRay ray = camera.ray(film, sample_disk(u3, u4));
-    PathResult result = trace_ept(world, tracer, ray.o, ray.d, sampler, options.ept, trail);
+    PathResult result = trace_path(world, tracer, ray.o, ray.d, sampler, options.path, trail);
     if (result.first.hit) result.first.depth = camera.depth(ray.o + result.first.depth * ray.d);
     return result;
 }
@@ -103,7 +103,7 @@ RenderStatistics render(const World& world, const Tracer& tracer, const Camera& 
             return progress.cancelled() || (done > 0 && options.timeout > 0 && seconds_since(start) > options.timeout);
         };
         RenderOptions wave_options = options;
-        wave_options.ept.stop = [&] { return progress.cancelled() || (options.timeout > 0 && seconds_since(start) > options.timeout); };
+        wave_options.path.stop = [&] { return progress.cancelled() || (options.timeout > 0 && seconds_since(start) > options.timeout); };
         tbb::parallel_for(0, tiles, [&](int tile) {
             flush_subnormals();
             RenderStatistics part;

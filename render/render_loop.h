@@ -3,7 +3,7 @@
 #include "ingest/support/progress.h"
 #include "render/film/film.h"
 #include "render/film/filter.h"
-#include "render/integrators/ept.h"
+#include "render/integrators/path_tracer.h"
 #include "render/scene/camera.h"
 
 #include <optional>
@@ -14,7 +14,7 @@ struct RenderOptions {
     uint32_t spp = 64;     ///< samples a pixel; with a timeout and no spp of its own, as many as the time allows
     double timeout = 0;    ///< seconds; 0: none
     uint64_t seed = 0;
-    EptOptions ept;
+    PathOptions path;
 };
 
 /// The first sample that went wrong, for --debug-sample.

@@ -5,7 +5,7 @@
 
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
-#include "render/integrators/ept.h"
+#include "render/integrators/path_tracer.h"
 
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
@@ -141,7 +141,7 @@ void run(const char* name, uint64_t count, const std::vector<PackedSphere>& sphe
         while (these < 200000) {
             Sampler sampler(1, static_cast<uint32_t>(paths++), 0, 0);
             const auto [o, d] = start_ray(sampler);
-            these += trace_ept(scene.world(), scene.tracer(), o, d, sampler).segments;
+            these += trace_path(scene.world(), scene.tracer(), o, d, sampler).segments;
         }
         ept_seconds += seconds_since(start);
         segments += these;
@@ -149,7 +149,7 @@ void run(const char* name, uint64_t count, const std::vector<PackedSphere>& sphe
             Sampler sampler(1, p, 0, 0);
             const auto [o, d] = start_ray(sampler);
             trail.clear();
-            trace_ept(scene.world(), scene.tracer(), o, d, sampler, {}, &trail);
+            trace_path(scene.world(), scene.tracer(), o, d, sampler, {}, &trail);
             for (const PathVertex& v : trail) recorded.push_back({V3f(v.o), V3f(v.d)});
         }
         bare_seconds += bare.walk(recorded, skip);

@@ -4,7 +4,7 @@
 #include "mixtures/single_mixture.h"
 #include "packing/list_fill.h"
 #include "packing/tile_generator.h"
-#include "render/integrators/ept.h"
+#include "render/integrators/path_tracer.h"
 #include "tests/builders/shapes.h"
 
 #include <fmt/format.h>
@@ -103,7 +103,7 @@ Cost walk(const World& world, const Tracer& tracer, uint32_t rays)
     uint64_t segments = 0;
     for (uint32_t i = 0; i < rays; ++i) {
         Sampler sampler(2, i, 0, 0);
-        const PathResult path = trace_ept(world, tracer, starts[i].first, starts[i].second, sampler);
+        const PathResult path = trace_path(world, tracer, starts[i].first, starts[i].second, sampler);
         segments += path.segments;
         cost.radiance += double{path.radiance.x} / rays;
     }

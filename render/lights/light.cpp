@@ -124,6 +124,25 @@ double LightSet::pdf(uint32_t index, const V3d& point, const V3d& direction, dou
     return 0;
 }
 
+double LightSet::meet(uint32_t index, const V3d& point, const V3d& direction) const
+{
+    constexpr double never = std::numeric_limits<double>::infinity();
+    const Light& light = lights_[index];
+    if (light.kind == LightKind::sphere) {
+        const V3d to = light.center - point;
+        const double along = to.dot(direction), rest = light.radius * light.radius - (to - along * direction).length2();
+        const double t = along - safe_sqrt(rest);
+        return rest > 0 && t > 0 ? t : never;
+    }
+    if (light.kind != LightKind::rectangle) return never;
+    const double t = (light.corner - point).dot(light.normal) / direction.dot(light.normal);
+    if (!(t > 0) || !std::isfinite(t)) return never;
+    const V3d p = point + t * direction - light.corner;
+    const V3d n = light.edge1.cross(light.edge2);
+    const double u = p.cross(light.edge2).dot(n) / n.length2(), v = light.edge1.cross(p).dot(n) / n.length2();
+    return u >= 0 && u <= 1 && v >= 0 && v <= 1 ? t : never;
+}
+
 C3f LightSet::infinite_radiance(uint32_t index, const V3d& direction) const
 {
     const Light& light = lights_[index];

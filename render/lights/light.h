@@ -52,6 +52,8 @@ public:
     LightSample sample(const V3d& point, double u_choice, double u1, double u2) const;
     /// Density with which `sample` at `point` gives `direction` through light `index` (met at `distance`, if finite).
     double pdf(uint32_t index, const V3d& point, const V3d& direction, double distance) const;
+    /// Where the ray meets a finite light, were nothing in the way; infinity when it does not.
+    double meet(uint32_t index, const V3d& point, const V3d& direction) const;
     /// Radiance of a finite light seen along `direction`.
     C3f emitted(uint32_t index) const { return lights_[index].radiance; }
     /// Radiance of one infinite light from far along `direction`.

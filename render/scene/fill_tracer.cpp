@@ -73,12 +73,12 @@ void fill_filter(const RTCFilterFunctionNArguments* args)
     if (!tracer.fill_.is_whole(number, entry.row)) return;
 
     const Place place{HitKind::grain, id, no_triangle, tracer.world_.fill->type(id, placed)};
-    if (tracer.world_.types[place.type].exemplar) {
+    if (tracer.world_.types[place.type].exemplar && !query.is_proxy(id)) {
         if (!query.offer_mesh(place, sphere)) return;
     } else {
         // A convex grain is not met again by the ray that leaves it.
         if (query.from.kind == HitKind::grain && query.from.index == id) return;
-        if (!enters || !query.offer(place, t)) return;
+        if (!enters || !query.offer_sphere(place, sphere, t)) return;
     }
     ray->tfar = visit.embree_end();
     args->valid[0] = -1;

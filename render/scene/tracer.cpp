@@ -100,6 +100,17 @@ bool TracerQuery::offer(const Place& what, double t)
     return true;
 }
 
+bool TracerQuery::offer_sphere(const Place& grain, const GrainSphere& sphere, double t)
+{
+    if (attenuates && t < best) {
+        const V3d to = sphere.centre - o;
+        const double along = to.dot(d);
+        passed *= tracer->world.types[grain.type].gsdf->alpha0((to - along * d).length2() / (sphere.radius * sphere.radius));
+        if (passed > 0) return false;
+    }
+    return offer(grain, t);
+}
+
 bool TracerQuery::offer_mesh(const Place& grain, const GrainSphere& sphere)
 {
     const World& world = tracer->world;
@@ -141,16 +152,20 @@ void tracer_filter(const RTCFilterFunctionNArguments* args)
 
     Place place;
     double t;
-    if (hit->geomID == Tracer::Impl::analytic_id) {
+    const uint32_t grain = hit->primID + (hit->geomID == Tracer::Impl::mesh_id ? world.grains.analytic_count : 0);
+    if (hit->geomID == Tracer::Impl::analytic_id || (hit->geomID == Tracer::Impl::mesh_id && query.is_proxy(grain))) {
         const bool far_face = hit->Ng_x * query.d.x + hit->Ng_y * query.d.y + hit->Ng_z * query.d.z > 0;
         if (far_face && world.grains.margin.complete) return;
         // A convex grain is not met again by the ray that leaves it.
-        if (query.from.kind == HitKind::grain && query.from.index == hit->primID) return;
+        if (query.from.kind == HitKind::grain && query.from.index == grain) return;
         const GrainStore& grains = world.grains;
-        if (!enters_sphere({grains.centre(hit->primID), grains.radius(hit->primID)}, query.o, query.d, t) || t >= query.best) return;
-        place = {HitKind::grain, hit->primID, no_triangle, grains.type_codes[hit->primID]};
+        const GrainSphere sphere{grains.centre(grain), grains.radius(grain)};
+        if (!enters_sphere(sphere, query.o, query.d, t) || t >= query.best) return;
+        if (!query.offer_sphere({HitKind::grain, grain, no_triangle, grains.type_codes[grain]}, sphere, t)) return;
+        ray->tfar = query.embree_end();
+        args->valid[0] = -1;
+        return;
     } else if (hit->geomID == Tracer::Impl::mesh_id) {
-        const uint32_t grain = hit->primID + world.grains.analytic_count;
         const GrainSphere sphere = world.sphere(grain);
         // The exemplar lies at or beyond the sphere's near face: the ray's end moves out from there, but never beyond the
         // nearest hit known.
@@ -217,9 +232,10 @@ bool approach(const Tracer::Impl& tracer, TracerQuery& query)
 
 } // namespace
 
-Hit Tracer::intersect(const V3d& o, const V3d& d, const Place& from) const
+Hit Tracer::intersect(const V3d& o, const V3d& d, const Place& from, GrainDetail detail) const
 {
     TracerQuery query(*impl_, o, d, from);
+    query.proxies = detail == GrainDetail::proxy;
     if (!approach(*impl_, query)) return {};
     const V3d start = float_start(impl_->world, o, d, from) + query.advanced * d;
     RTCRayHit ray = make_ray(start, d, query.embree_end());
@@ -259,17 +275,30 @@ Hit Tracer::intersect_inside(const Place& grain, const V3d& o, const V3d& d, con
     return make_hit(query);
 }
 
-bool Tracer::occluded(const V3d& o, const V3d& d, double tmax, const Place& from, uint32_t target) const
+double Tracer::visibility(const V3d& o, const V3d& d, double tmax, const Place& from, uint32_t target, GrainDetail detail) const
 {
     TracerQuery query(*impl_, o, d, from);
     query.best = tmax;
     query.target = target;
-    if (!approach(*impl_, query)) return false;
-    if (tmax <= query.advanced) return false;
+    query.proxies = query.attenuates = detail == GrainDetail::proxy;
+    if (!approach(*impl_, query)) return 1;
+    if (tmax <= query.advanced) return 1;
     RTCRayHit ray = make_ray(float_start(impl_->world, o, d, from) + query.advanced * d, d, query.embree_end());
     rtcOccluded1(impl_->scene, &query.context, &ray.ray);
     if (impl_->fill && query.place.kind == HitKind::none) impl_->fill->find_any(query);
-    return query.place.kind != HitKind::none;
+    return query.place.kind == HitKind::none ? query.passed : 0;
+}
+
+Hit Tracer::surface_between(const V3d& a, const V3d& b) const
+{
+    if (!impl_->surface_scene) return {};
+    const V3d way = b - a;
+    const double length = way.length();
+    TracerQuery query(*impl_, a, way / length, {});
+    query.best = length;
+    RTCRayHit ray = make_ray(a, query.d, length);
+    rtcIntersect1(impl_->surface_scene, &query.context, &ray);
+    return make_hit(query);
 }
 
 } // namespace scree

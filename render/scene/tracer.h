@@ -19,6 +19,9 @@ struct Place {
     uint8_t type = 0;                 ///< of a grain
 };
 
+/// How grains that a ray meets from outside are taken: as they are, or by their bounding spheres, which stand for them.
+enum class GrainDetail : uint8_t { as_is, proxy };
+
 struct Hit {
     Place place;
     double t = 0;
@@ -37,12 +40,20 @@ public:
     Tracer(std::shared_ptr<const EmbreeDevice> device, const World& world);
     ~Tracer();
 
-    /// Nearest thing from outside all grains; kind none if there is none.
-    Hit intersect(const V3d& o, const V3d& d, const Place& from) const;
+    /// Nearest thing from outside all grains; kind none if there is none. Proxies are met where their sphere is entered; a grain
+    /// whose triangle the ray starts on is as it is.
+    Hit intersect(const V3d& o, const V3d& d, const Place& from, GrainDetail detail = GrainDetail::as_is) const;
     /// Nearest way out of `grain` from inside it, or a surface standing in it. Kind none: lost to rounding, treat as outside.
     Hit intersect_inside(const Place& grain, const V3d& o, const V3d& d, const Place& from) const;
     /// Whether anything stands between o and o + tmax d; `target` is the light aimed at, which does not count.
-    bool occluded(const V3d& o, const V3d& d, double tmax, const Place& from, uint32_t target) const;
+    bool occluded(const V3d& o, const V3d& d, double tmax, const Place& from, uint32_t target) const
+    {
+        return visibility(o, d, tmax, from, target, GrainDetail::as_is) == 0;
+    }
+    /// The part of light that passes between o and o + tmax d: none, all, or the chance that all proxies on the way are missed.
+    double visibility(const V3d& o, const V3d& d, double tmax, const Place& from, uint32_t target, GrainDetail detail) const;
+    /// The surface that cuts the way from a to b, if there is one. For worlds with proxies; others may always say none.
+    Hit surface_between(const V3d& a, const V3d& b) const;
 
     /// The scene that `intersect` asks, as Embree's handle: for benchmarks against Embree alone.
     RTCSceneTy* embree_scene() const;

@@ -17,7 +17,7 @@ Tracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const World& wor
     for (uint32_t i = grains.analytic_count; i < grains.size(); ++i) mesh_reach = std::max(mesh_reach, 2.001 * grains.radius(i));
 
     const bool inside_possible = std::any_of(world.types.begin(), world.types.end(),
-                                             [](const GrainType& type) { return type.material.transmits(); });
+                                             [](const GrainType& type) { return type.material.transmits() || type.gsdf; });
     if (inside_possible && world.has_grains() && !world.surfaces.empty()) {
         surface_scene = rtcNewScene(device->get());
         rtcSetSceneFlags(surface_scene, RTC_SCENE_FLAG_ROBUST);

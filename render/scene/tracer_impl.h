@@ -53,6 +53,9 @@ struct TracerQuery {
     double reach = 0;            // Embree's ray is never shorter, so that every sphere around its start is proposed
     Place from;
     uint32_t target = no_light;  // a light that does not count
+    bool proxies = false;        // grains count as their bounding spheres
+    bool attenuates = false;     // proxies let light through, and do not count when they let all of it
+    double passed = 1;           // by the proxies so far
     double best = std::numeric_limits<double>::infinity(); // from o; nothing farther is accepted
     Place place;                 // of the nearest
     float u = 0, v = 0;          // on its triangle
@@ -67,6 +70,13 @@ struct TracerQuery {
     float embree_end() const { return static_cast<float>(std::max(best - advanced, reach)); }
     /// Takes what is met at t, if that is nearer than best.
     bool offer(const Place& what, double t);
+    /// Whether the bounding sphere of a grain stands for it.
+    bool is_proxy(uint64_t grain) const
+    {
+        return proxies && !(from.kind == HitKind::grain && from.index == grain && from.triangle != no_triangle);
+    }
+    /// Takes a sphere that is entered at t, if that is nearer than best; one that only attenuates is not taken.
+    bool offer_sphere(const Place& grain, const GrainSphere& sphere, double t);
     /// Traces the mesh of a grain from o, outside; takes a hit nearer than best.
     bool offer_mesh(const Place& grain, const GrainSphere& sphere);
     /// Whether a mesh grain's sphere, met at Embree's hit, is to be offered: entered there, or left there with o inside.

@@ -3,6 +3,7 @@
 #include "render/grains/exemplar.h"
 #include "render/grains/grain_fill.h"
 #include "render/grains/grain_store.h"
+#include "render/gsdf/gsdf.h"
 #include "render/lights/light.h"
 #include "render/materials/material.h"
 #include "render/math.h"
@@ -22,6 +23,7 @@ struct GrainType {
     std::string name;
     Material material;                  ///< absorption in render coordinates
     std::shared_ptr<const Exemplar> exemplar;
+    std::shared_ptr<const Gsdf> gsdf = nullptr; ///< its scattering as a proxy, where an integrator may ask for it
 };
 
 /// Triangles of the scene that are no grains, in render coordinates.

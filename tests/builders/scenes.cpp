@@ -17,6 +17,11 @@ uint32_t TestScene::add_type(const Material& material, const TriangleMesh& mesh)
     return type;
 }
 
+void TestScene::add_proxies(const GsdfOptions& options)
+{
+    for (GrainType& type : world_.types) type.gsdf = build_gsdf({type.exemplar.get(), type.material}, options);
+}
+
 void TestScene::add_grain(const V3d& center, double radius, uint32_t type) { grains_.push_back({center, radius, type}); }
 
 void TestScene::add_grains(const std::vector<PackedSphere>& spheres, uint32_t type)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ingest/triangle_mesh.h"
+#include "render/gsdf/gsdf_builder.h"
 #include "render/scene/tracer.h"
 #include "render/scene/world.h"
 #include "tests/builders/packings.h"
@@ -19,6 +20,9 @@ public:
     /// A grain type; the shape is the bounding sphere, or a mesh. Returns its number.
     uint32_t add_type(const Material& material);
     uint32_t add_type(const Material& material, const TriangleMesh& mesh);
+    /// Gives every type its GSDF, so that grains may be proxies; after types are added.
+    void add_proxies(const GsdfOptions& options);
+    void set_gsdf(uint32_t type, std::shared_ptr<const Gsdf> gsdf) { world_.types[type].gsdf = std::move(gsdf); }
     void add_grain(const V3d& center, double radius, uint32_t type);
     void add_grains(const std::vector<PackedSphere>& spheres, uint32_t type);
     void add_surface(const TriangleMesh& mesh, const Material& material);

@@ -92,7 +92,7 @@ TEST_F(PictureResumedOnOther, CropIsRefused) { EXPECT_THAT(found([](RenderJob& j
 TEST_F(PictureResumedOnOther, DepthLimitIsRefused) { EXPECT_THAT(found([](RenderJob& job) { job.max_depth = 3; }), HasSubstr(other_)); }
 TEST_F(PictureResumedOnOther, DirectLightIsRefused)
 {
-    EXPECT_THAT(found([](RenderJob& job) { job.options.ept.direct_light = DirectLight::lights_only; }), HasSubstr(other_));
+    EXPECT_THAT(found([](RenderJob& job) { job.options.path.direct_light = DirectLight::lights_only; }), HasSubstr(other_));
 }
 TEST_F(PictureResumedOnOther, SceneIsRefused) { EXPECT_THAT(found([](RenderJob& job) { job.overrides = {{"camera.fov", "41"}}; }), HasSubstr(other_)); }
 

@@ -1,6 +1,6 @@
 // Direct light by sampling lights, by scattering alone, and by both weighed: three estimators of one picture.
 
-#include "render/integrators/ept.h"
+#include "render/integrators/path_tracer.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/statistics.h"
@@ -58,13 +58,13 @@ TEST(DirectLight, EveryStrategyGivesTheSamePicture)
     Estimate mean[3];
     const RenderSpace space = scene.space();
     for (uint32_t s = 0; s < 3; ++s) {
-        EptOptions options;
+        PathOptions options;
         options.direct_light = static_cast<DirectLight>(s);
         for (uint32_t i = 0; i < 300000; ++i) {
             Sampler sampler(31 + s, i, 0, 0);
             const V3d target(5 * sampler.next() - 2.5, 5 * sampler.next() - 2.5, 0.5);
             const V3d o = space.point({1, -9, 7}), d = (space.point(target) - o).normalized();
-            mean[s].add(trace_ept(scene.world(), scene.tracer(), o, d, sampler, options).radiance.x);
+            mean[s].add(trace_path(scene.world(), scene.tracer(), o, d, sampler, options).radiance.x);
         }
         std::printf("strategy %u: %.5f +- %.5f\n", s, mean[s].mean(), mean[s].standard_error());
     }
@@ -101,7 +101,7 @@ TEST(DirectLight, FloorShowsTheIrradianceByHand)
     for (uint32_t i = 0; i < 100000; ++i) {
         Sampler sampler(3, i, 0, 0);
         const V3d o(1.5, 0, 1.0), d = (V3d(0) - o).normalized();
-        radiance.add(trace_ept(scene.world(), scene.tracer(), o, d, sampler).radiance.x);
+        radiance.add(trace_path(scene.world(), scene.tracer(), o, d, sampler).radiance.x);
     }
     const double irradiance = pi * 3 * (0.5 / 2) * (0.5 / 2) + 2 * 0.8;
     EXPECT_LT(std::abs(radiance.z(0.8 * irradiance / pi)), 4) << radiance.mean() << " +- " << radiance.standard_error();

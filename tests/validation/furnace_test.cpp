@@ -1,7 +1,7 @@
 // The white furnace: lossless grains in a constant surrounding of radiance 1 are invisible, whatever their shape, roughness
 // and overlap, and however long the paths. Every slip of a weight (n^2, Fresnel, roulette) shows here.
 
-#include "render/integrators/ept.h"
+#include "render/integrators/path_tracer.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/statistics.h"
@@ -21,7 +21,7 @@ struct Furnace {
 };
 
 /// Paths from all around towards the scene's middle.
-Furnace run_furnace(const TestScene& scene, uint32_t paths, const EptOptions& options = {})
+Furnace run_furnace(const TestScene& scene, uint32_t paths, const PathOptions& options = {})
 {
     Furnace total;
     std::mutex mutex;
@@ -32,7 +32,7 @@ Furnace run_furnace(const TestScene& scene, uint32_t paths, const EptOptions& op
         const double z = 2 * sampler.next() - 1, phi = 2 * pi * sampler.next(), r = std::sqrt(1 - z * z);
         const V3d o = 3.0 * V3d(r * std::cos(phi), r * std::sin(phi), z);
         const V3d target(sampler.next() - 0.5, sampler.next() - 0.5, sampler.next() - 0.5);
-        const PathResult path = trace_ept(scene.world(), scene.tracer(), o, (target - o).normalized(), sampler, options);
+        const PathResult path = trace_path(scene.world(), scene.tracer(), o, (target - o).normalized(), sampler, options);
         values[p] = path.radiance.x;
         const std::lock_guard lock(mutex);
         total.segments += path.segments;
@@ -119,7 +119,7 @@ TEST(SampledFurnace, RoughGrainsAreWhiteByEveryStrategy)
         scene.add_grains(bed(), scene.add_type(dielectric(1.5, 0.5)));
         scene.add_light(white_environment());
         scene.build();
-        EptOptions options;
+        PathOptions options;
         options.direct_light = strategy;
         const Furnace f = run_furnace(scene, 8000, options);
         EXPECT_LT(std::abs(f.radiance.z(1)), 4) << f.radiance.mean() << " +- " << f.radiance.standard_error();
@@ -159,7 +159,7 @@ TEST(ClosedRoom, LetsNoLightIn)
         for (uint32_t p = 0; p < 2000; ++p) {
             Sampler sampler(41, p, 0, 0);
             const V3d d = V3d(sampler.next() - 0.5, sampler.next() - 0.5, sampler.next() - 0.5).normalized();
-            const PathResult path = trace_ept(scene.world(), scene.tracer(), V3d(0.1, 0.2, 0.3), d, sampler);
+            const PathResult path = trace_path(scene.world(), scene.tracer(), V3d(0.1, 0.2, 0.3), d, sampler);
             brought += path.radiance.x;
             segments += path.segments;
         }

@@ -1,6 +1,6 @@
 // One grain under a beam: mean cosine of scattering, and what a tint takes.
 
-#include "render/integrators/ept.h"
+#include "render/integrators/path_tracer.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/statistics.h"
@@ -35,7 +35,7 @@ Beam shine(const TestScene& scene, uint32_t n)
         const double rho = r * std::sqrt(sampler.next()), phi = 2 * pi * sampler.next();
         const V3d d(0, 0, 1), o(rho * std::cos(phi), rho * std::sin(phi), -5);
         trail.clear();
-        const PathResult path = trace_ept(scene.world(), scene.tracer(), o, d, sampler, {}, &trail);
+        const PathResult path = trace_path(scene.world(), scene.tracer(), o, d, sampler, {}, &trail);
         beam.cosine.add(trail.back().d.dot(d));
         beam.radiance.add(path.radiance.x);
     }
@@ -88,7 +88,7 @@ TEST(SingleGrain, BothInterfacesCount)
     scene.build();
     std::vector<PathVertex> trail;
     Sampler sampler(1, 0, 0, 0);
-    const PathResult path = trace_ept(scene.world(), scene.tracer(), V3d(0.01, 0.02, -5), V3d(0, 0, 1), sampler, {}, &trail);
+    const PathResult path = trace_path(scene.world(), scene.tracer(), V3d(0.01, 0.02, -5), V3d(0, 0, 1), sampler, {}, &trail);
     EXPECT_NEAR(path.radiance.x, 0.9604, 1e-6);
     EXPECT_EQ(trail.size(), 3u);
 }
@@ -126,7 +126,7 @@ TEST(SingleGrain, SurroundingSurfaceAbsorbsOnTheWayInAndOut)
     Estimate radiance; // roulette scatters it
     for (uint32_t i = 0; i < 20000; ++i) {
         Sampler sampler(1, i, 0, 0);
-        radiance.add(trace_ept(scene.world(), scene.tracer(), scale * V3d(0.001, 0.0005, -5), V3d(0, 0, 1), sampler).radiance.x);
+        radiance.add(trace_path(scene.world(), scene.tracer(), scale * V3d(0.001, 0.0005, -5), V3d(0, 0, 1), sampler).radiance.x);
     }
     EXPECT_LT(std::abs(radiance.z(std::exp(-0.5))), 4) << radiance.mean() << " +- " << radiance.standard_error();
     EXPECT_LT(radiance.standard_error(), 0.005);

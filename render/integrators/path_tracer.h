@@ -5,6 +5,7 @@
 #include "render/scene/tracer.h"
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace scree {
@@ -12,8 +13,11 @@ namespace scree {
 /// How direct light is found: by both strategies (weighed), or by one alone, for tests.
 enum class DirectLight : uint8_t { both, lights_only, scattering_only };
 
-struct EptOptions {
+inline constexpr uint32_t all_grains = std::numeric_limits<uint32_t>::max();
+
+struct PathOptions {
     DirectLight direct_light = DirectLight::both;
+    uint32_t explicit_grains = all_grains; ///< grains of a path that are traced as they are; those after them are proxies
     uint32_t max_depth = 0; ///< scattering events after which a path is cut, which biases; 0: never
     std::function<bool()> stop; ///< asked every 65,536 segments: a path that cannot end (white walls all around) is given up
 };
@@ -33,14 +37,16 @@ struct PathResult {
     uint32_t shadow_rays = 0;
     uint32_t leaks = 0;    ///< rays inside a mesh that rounding let escape
     bool cut = false;      ///< by max_depth
-    bool stopped = false;  ///< by EptOptions::stop: no sample
+    bool stopped = false;  ///< by PathOptions::stop: no sample
 };
 
-/// Explicit path tracing: grains as they are, unidirectional, with next-event estimation and multiple importance
-/// sampling (Veach 1997, power heuristic). Unbiased: no clamp and no bound on length, Russian roulette on the weight.
+/// The radiance along a ray by path tracing, unidirectional, with next-event estimation and multiple importance sampling
+/// (Veach 1997, power heuristic), no clamp and no bound on length, Russian roulette on the weight.
 ///
-/// Weights carry basic radiance L / n^2 (see bsdf.h). `trail`, if given, receives every vertex.
-PathResult trace_ept(const World& world, const Tracer& tracer, V3d o, V3d d, Sampler& sampler, const EptOptions& options = {},
-                     std::vector<PathVertex>* trail = nullptr);
+/// The first `explicit_grains` grains of a path are traced as they are (explicit path tracing, EPT: unbiased). Further ones are
+/// proxies (proxy path tracing, PPT: Müller et al. 2016, algorithm 1): their types need a GSDF. Weights carry basic radiance
+/// L / n^2 (see bsdf.h). `trail`, if given, receives every vertex.
+PathResult trace_path(const World& world, const Tracer& tracer, V3d o, V3d d, Sampler& sampler, const PathOptions& options = {},
+                      std::vector<PathVertex>* trail = nullptr);
 
 } // namespace scree

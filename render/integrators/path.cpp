@@ -1,0 +1,187 @@
+#include "render/integrators/path.h"
+
+#include "render/materials/bsdf.h"
+
+namespace scree {
+
+PathResult Path::run(V3d o, V3d d, std::vector<PathVertex>* trail)
+{
+    o_ = o;
+    d_ = d;
+    last_.seen_from = o;
+    bool alive = true;
+    while (alive) {
+        const V3d start = o_, direction = d_;
+        const bool inside = is_inside();
+        const Hit hit = inside ? tracer_.intersect_inside(grain_, o_, d_, from_) : tracer_.intersect(o_, d_, from_, detail());
+        ++result_.segments;
+        if (result_.segments % 65536 == 0 && options_.stop && options_.stop()) {
+            result_.stopped = true;
+            break;
+        }
+        alive = handle(hit);
+        if (trail) trail->push_back({start, direction, hit, inside, weight_, result_.radiance});
+    }
+    return result_;
+}
+
+bool Path::handle(const Hit& hit)
+{
+    if (hit.place.kind == HitKind::none) return handle_miss();
+    attenuate(is_inside() ? &material_of(grain_) : surrounding_, hit.t);
+    if (hit.place.kind == HitKind::light) {
+        add_light(hit);
+        return false;
+    }
+    const bool is_proxy = hit.place.kind == HitKind::grain && hit.place.triangle == no_triangle && !is_inside() && detail() == GrainDetail::proxy;
+    return is_proxy ? handle_proxy(hit) : handle_interface(hit);
+}
+
+bool Path::handle_miss()
+{
+    if (is_inside()) { // lost between two triangles: go on as if the interface were not there
+        ++result_.leaks;
+        grain_ = {};
+        from_ = {};
+        last_.specular = true; // no light was sampled for this way
+        return true;
+    }
+    add_infinite_lights();
+    return false;
+}
+
+bool Path::is_cut()
+{
+    result_.cut = options_.max_depth > 0 && depth_ >= options_.max_depth;
+    ++depth_;
+    return result_.cut;
+}
+
+bool Path::handle_interface(const Hit& hit)
+{
+    if (is_cut()) return false;
+    const bool on_grain = hit.place.kind == HitKind::grain;
+    if (on_grain && hit.place.index != last_grain_) {
+        last_grain_ = hit.place.index;
+        if (explicit_left_ != all_grains) --explicit_left_;
+    }
+    const Material& material = on_grain ? material_of(hit.place) : world_.surfaces[hit.place.index].material;
+    const Frame frame(hit.normal);
+    const V3d wo = frame.to_local(-d_);
+    if (!result_.first.hit && depth_ == 1) note_first(hit, material);
+
+    if (!material.is_delta() && world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only) {
+        add_direct_light(hit, material, frame, wo);
+    }
+    const BsdfSample sample = sample_bsdf(material, wo, sampler_);
+    if (!sample.valid) return false;
+    weight_ *= sample.weight;
+    if (!survives()) return false;
+
+    if (material.transmits()) {
+        if (on_grain) grain_ = sample.wi.z < 0 ? hit.place : Place{};
+        else surrounding_ = sample.wi.z < 0 ? &material : nullptr;
+    }
+    o_ = hit.point;
+    d_ = frame.to_world(sample.wi).normalized();
+    from_ = hit.place;
+    last_ = {material.is_delta(), sample.pdf, o_};
+    travelled_ = 0;
+    return true;
+}
+
+bool Path::survives()
+{
+    const double w = max_component(weight_);
+    if (w <= 0) return false;
+    if (w >= 1 || depth_ < 3) return true;
+    if (sampler_.next() >= w) return false;
+    weight_ *= static_cast<float>(1 / w);
+    return true;
+}
+
+C3f Path::transmittance(const Material& medium, double length)
+{
+    return is_black(medium.absorption) ? C3f(1) : exp(medium.absorption * static_cast<float>(-length));
+}
+
+void Path::note_first(const Hit& hit, const Material& material)
+{
+    FirstHit& first = result_.first;
+    first.hit = true;
+    first.albedo = material.kind == MaterialKind::lambert ? material.reflectance : material.tint;
+    first.normal = V3f(hit.normal);
+    first.depth = travelled_ + hit.t;
+    if (hit.place.kind == HitKind::grain) {
+        first.type = hit.place.type;
+        first.id = world_.id(hit.place.index);
+    }
+}
+
+void Path::add_direct_light(const Hit& hit, const Material& material, const Frame& frame, const V3d& wo)
+{
+    const double u0 = sampler_.next(), u1 = sampler_.next(), u2 = sampler_.next();
+    const LightSample light = world_.lights.sample(hit.point, u0, u1, u2);
+    if (!light.valid) return;
+    const V3d wi = frame.to_local(light.direction);
+    // What leads into a grain (or stays in it) is cut off by its own interface.
+    const bool leads_inside = hit.place.kind == HitKind::grain ? material.transmits() && wi.z <= 0 : is_inside();
+    if (leads_inside) return;
+    const C3f f = eval_bsdf(material, wo, wi, sampler_);
+    if (is_black(f)) return;
+    ++result_.shadow_rays;
+    const double visibility = tracer_.visibility(hit.point, light.direction, light.distance, hit.place, light.light, detail());
+    if (visibility > 0) add_light_sample(light, light.distance, f, pdf_bsdf(material, wo, wi), visibility);
+}
+
+void Path::add_light_sample(const LightSample& light, double distance, const C3f& f, double scatter_pdf, double visibility)
+{
+    double w = visibility;
+    if (!light.delta && options_.direct_light == DirectLight::both) w *= mis_weight(light.pdf, scatter_pdf);
+    C3f arriving = light.radiance;
+    if (surrounding_ && std::isfinite(distance)) arriving *= transmittance(*surrounding_, distance);
+    result_.radiance += weight_ * f * arriving * static_cast<float>(w / light.pdf);
+}
+
+double Path::found_weight(double light_pdf) const
+{
+    if (last_.specular || light_pdf == 0) return 1;
+    if (options_.direct_light == DirectLight::both) return mis_weight(last_.pdf, light_pdf);
+    return options_.direct_light == DirectLight::lights_only ? 0 : 1;
+}
+
+double Path::found_pdf(uint32_t light, double distance) const
+{
+    if (last_.specular || !world_.lights.lights()[light].is_sampled()) return 0;
+    if (last_.elsewhere && std::isfinite(distance)) {
+        distance = world_.lights.meet(light, last_.seen_from, d_);
+        if (!std::isfinite(distance)) return 0;
+    }
+    return world_.lights.pdf(light, last_.seen_from, d_, distance);
+}
+
+void Path::add_infinite_lights()
+{
+    const auto& lights = world_.lights.lights();
+    for (uint32_t i = 0; i < lights.size(); ++i) {
+        if (!lights[i].is_infinite()) continue;
+        const C3f radiance = world_.lights.infinite_radiance(i, d_);
+        if (is_black(radiance)) continue;
+        result_.radiance += weight_ * radiance * static_cast<float>(found_weight(found_pdf(i, std::numeric_limits<double>::infinity())));
+    }
+}
+
+void Path::add_light(const Hit& hit)
+{
+    const auto light = static_cast<uint32_t>(hit.place.index);
+    const double pdf = found_pdf(light, travelled_ + hit.t);
+    result_.radiance += weight_ * world_.lights.emitted(light) * static_cast<float>(found_weight(pdf));
+}
+
+PathResult trace_path(const World& world, const Tracer& tracer, V3d o, V3d d, Sampler& sampler, const PathOptions& options,
+                      std::vector<PathVertex>* trail)
+{
+    return Path(world, tracer, sampler, options).run(o, d, trail);
+}
+
+} // namespace scree

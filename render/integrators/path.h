@@ -1,0 +1,79 @@
+#pragma once
+
+// Private to the integrators: one light path on its way, and what it does at each kind of vertex.
+
+#include "render/gsdf/encounter.h"
+#include "render/integrators/path_tracer.h"
+
+namespace scree {
+
+/// Power heuristic for two strategies of one sample each.
+inline double mis_weight(double p, double other) { return p * p / (p * p + other * other); }
+
+class Path {
+public:
+    Path(const World& world, const Tracer& tracer, Sampler& sampler, const PathOptions& options)
+        : world_(world), tracer_(tracer), sampler_(sampler), options_(options), explicit_left_(options.explicit_grains)
+    {
+    }
+
+    PathResult run(V3d o, V3d d, std::vector<PathVertex>* trail);
+
+private:
+    /// What the last scattering knew of the light it may find: for the weight of what it finds indeed.
+    struct Scattering {
+        bool specular = true; ///< it (or the camera) could not have sampled lights
+        double pdf = 0;
+        V3d seen_from{0};     ///< where lights were sampled from
+        bool elsewhere = false; ///< the path did not go on from there: lights are to be met again from seen_from
+    };
+
+    bool is_inside() const { return grain_.kind == HitKind::grain; }
+    GrainDetail detail() const { return explicit_left_ > 0 ? GrainDetail::as_is : GrainDetail::proxy; }
+    const Material& material_of(const Place& grain) const { return world_.types[grain.type].material; }
+    static C3f transmittance(const Material& medium, double length);
+    void attenuate(const Material* medium, double length)
+    {
+        if (medium) weight_ *= transmittance(*medium, length);
+    }
+
+    // Each handles one vertex; false when the path ends there.
+    bool handle(const Hit& hit);
+    bool handle_miss();
+    bool handle_interface(const Hit& hit);
+    bool handle_proxy(const Hit& hit);
+
+    /// Russian roulette: kills with the weight's largest channel, and only what has lost some.
+    bool survives();
+    bool is_cut();
+    void note_first(const Hit& hit, const Material& material);
+
+    void add_direct_light(const Hit& hit, const Material& material, const Frame& frame, const V3d& wo);
+    void add_proxy_light(const Hit& hit, const Encounter& encounter, uint32_t stratum);
+    /// A light's sample that `arriving` reaches the path with, scattered by `f` (per solid angle, over the light's density).
+    void add_light_sample(const LightSample& light, double distance, const C3f& f, double scatter_pdf, double visibility);
+    /// Weight of light that scattering found, against the chance that sampling the light had of it.
+    double found_weight(double light_pdf) const;
+    double found_pdf(uint32_t light, double distance) const;
+    void add_infinite_lights();
+    void add_light(const Hit& hit);
+
+    const World& world_;
+    const Tracer& tracer_;
+    Sampler& sampler_;
+    const PathOptions& options_;
+
+    V3d o_, d_;
+    Place from_;
+    Place grain_;              // that the path is inside of
+    uint64_t last_grain_ = std::numeric_limits<uint64_t>::max(); // the last met as it is
+    uint32_t explicit_left_;   // grains that may still be met as they are
+    const Material* surrounding_ = nullptr; // of the dielectric surface the path is inside of, outside grains
+    C3f weight_{1};
+    Scattering last_;
+    double travelled_ = 0;     // since the last scattering, through proxies that were missed
+    uint32_t depth_ = 0;
+    PathResult result_;
+};
+
+} // namespace scree

@@ -1,0 +1,78 @@
+// Proxy path tracing (Müller et al. 2016, algorithm 1): a grain's bounding sphere stands for the grain averaged over rotations.
+// Where the paper passes a missed grain along 2 (w_i . w_o) w_o, that is the chord 2 (n_o . w_o) w_o.
+
+#include "render/integrators/path.h"
+
+namespace scree {
+
+bool Path::handle_proxy(const Hit& hit)
+{
+    const GrainSphere sphere = world_.sphere(hit.place.index);
+    const GrainType& type = world_.types[hit.place.type];
+    const Gsdf& gsdf = *type.gsdf;
+    const Encounter encounter(hit.normal, d_);
+
+    if (!gsdf.always_met() && sampler_.next() < gsdf.alpha0(encounter.q)) {
+        const double chord = 2 * encounter.cos_beta() * sphere.radius;
+        attenuate(surrounding_, chord);
+        o_ = hit.point + chord * d_;
+        from_ = hit.place;
+        travelled_ += hit.t + chord;
+        return true;
+    }
+    if (is_cut()) return false;
+    if (!result_.first.hit && depth_ == 1) note_first(hit, type.material);
+
+    const uint32_t stratum = Gsdf::stratum(encounter.q, sampler_.next());
+    if (world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only) add_proxy_light(hit, encounter, stratum);
+
+    const uint32_t cell = gsdf.sample_cell(stratum, sampler_.next());
+    const uint32_t number = gsdf.pick(stratum, cell, sampler_.next());
+    const GsdfRecord& record = gsdf.record(number);
+    weight_ *= gsdf.weight(number, type.material, sphere.radius);
+    if (!survives()) return false;
+    const V3d exit = sphere.centre + sphere.radius * encounter.to_world(record.point.unpack());
+    travelled_ = 0;
+    if (const Hit between = tracer_.surface_between(hit.point, exit); between.place.kind == HitKind::surface) {
+        // A surface cuts through the sphere: the path has it before it.
+        d_ = (exit - hit.point).normalized();
+        last_ = {true, 0, hit.point};
+        return handle_interface(between);
+    }
+    o_ = exit;
+    d_ = encounter.to_world(record.direction.unpack()).normalized();
+    from_ = hit.place;
+    last_ = {false, gsdf.cell_density(stratum, cell), sphere.centre, true};
+    return true;
+}
+
+void Path::add_proxy_light(const Hit& hit, const Encounter& encounter, uint32_t stratum)
+{
+    // Light is sampled from the centre; the path to it starts where a record of that direction leaves. What leaves
+    // elsewhere and meets the light though the centre does not see it there is left to scattering.
+    const GrainSphere sphere = world_.sphere(hit.place.index);
+    const GrainType& type = world_.types[hit.place.type];
+    const Gsdf& gsdf = *type.gsdf;
+    const double u0 = sampler_.next(), u1 = sampler_.next(), u2 = sampler_.next();
+    const LightSample light = world_.lights.sample(sphere.centre, u0, u1, u2);
+    if (!light.valid) return;
+    const V3d w = encounter.to_local(light.direction);
+    const double density = gsdf.density(stratum, w);
+    if (!(density > 0)) return;
+    const uint32_t cell = DirectionGrid::cell(DirectionGrid::angles(w));
+    const uint32_t number = gsdf.pick(stratum, cell, sampler_.next());
+    const C3f kept = gsdf.weight(number, type.material, sphere.radius);
+    if (is_black(kept)) return;
+    const V3d exit = sphere.centre + sphere.radius * encounter.to_world(gsdf.record(number).point.unpack());
+    double distance = light.distance;
+    if (std::isfinite(distance)) {
+        distance = world_.lights.meet(light.light, exit, light.direction);
+        if (!std::isfinite(distance)) return;
+    }
+    ++result_.shadow_rays;
+    double visibility = tracer_.visibility(exit, light.direction, distance, hit.place, light.light, GrainDetail::proxy);
+    if (visibility > 0 && tracer_.surface_between(hit.point, exit).place.kind == HitKind::surface) visibility = 0;
+    if (visibility > 0) add_light_sample(light, distance, kept * static_cast<float>(density), gsdf.cell_density(stratum, cell), visibility);
+}
+
+} // namespace scree
