@@ -2,6 +2,7 @@
 
 #include "ingest/support/json.h"
 #include "mixtures/read_mixture.h"
+#include "render/scene/read_grain_type.h"
 
 #include <fmt/format.h>
 
@@ -146,25 +147,6 @@ SurfaceDescription read_surface(const JsonValue& json)
     return surface;
 }
 
-GrainTypeDescription read_grain_type(const std::string& name, const JsonValue& json)
-{
-    JsonObject object = json.object();
-    GrainTypeDescription type;
-    type.name = name;
-    type.place = json.place();
-    const JsonValue shape = object.require("shape");
-    if (shape.is_object()) {
-        JsonObject mesh = shape.object();
-        type.mesh = mesh.require("mesh").path();
-        mesh.done();
-    } else if (shape.string() != "sphere") {
-        shape.fail("\"sphere\" or {\"mesh\": FILE}", "this version has no other shapes built in");
-    }
-    type.material = read_material(object.require("material"));
-    object.done();
-    return type;
-}
-
 /// The dump's type numbers are the keys.
 int32_t read_type_number(const std::string& key, const JsonValue& where)
 {
@@ -258,8 +240,9 @@ AssemblyDescription read_assembly(const JsonValue& json, const std::vector<Grain
 void read_grains(const JsonValue& json, SceneDescription& scene)
 {
     JsonObject object = json.object();
+    if (const auto unit = object.find("unit")) scene.metres_per_unit = read_unit(*unit);
     JsonObject types = object.require("types").object();
-    for (const std::string& name : types.take_keys()) scene.types.push_back(read_grain_type(name, types.require(name)));
+    for (const std::string& name : types.take_keys()) scene.types.push_back(read_grain_type(name, types.require(name), scene.metres_per_unit));
     if (scene.types.empty()) types.value().fail("at least one grain type");
     std::vector<std::string> names;
     for (const GrainTypeDescription& type : scene.types) names.push_back(type.name);

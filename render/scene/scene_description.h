@@ -2,6 +2,7 @@
 
 #include "mixtures/mixture_description.h"
 #include "render/film/filter.h"
+#include "render/grains/library/grain_library.h"
 #include "render/materials/material.h"
 #include "render/scene/camera.h"
 
@@ -48,9 +49,14 @@ struct SurfaceDescription {
 
 struct GrainTypeDescription {
     std::string name;
-    std::optional<std::filesystem::path> mesh; ///< none: a sphere
-    Material material;
+    std::optional<std::filesystem::path> mesh; ///< of the user
+    const LibraryGrain* library = nullptr;     ///< of the library; neither, or one of no triangles: a sphere
+    ShapeOptions shape;                        ///< of the library's mesh
+    Material material;                         ///< absorption per unit of length of the scene
     std::string place;
+
+    /// Whether its shape is a mesh rather than the bounding sphere.
+    bool has_mesh() const { return mesh || (library && (library->default_triangles > 0 || shape.triangles > 0)); }
 };
 
 /// Where the grains come from: a dump, a mesh filled with a tile, or spheres written out in the scene.
@@ -85,6 +91,7 @@ struct SceneDescription {
     std::vector<LightDescription> lights;
     std::vector<SurfaceDescription> surfaces;
     std::vector<GrainTypeDescription> types; ///< in order of name
+    double metres_per_unit = 1e-3;           ///< what the scene's unit of length is to the library's materials
     std::optional<AssemblyDescription> assembly;
     MixtureDescription mixture{ExplicitDescription{}, {}, {}}; ///< which grain type each sphere is
     std::string integrator = "auto";

@@ -8,6 +8,7 @@
 #include "render/scene/content_hash.h"
 #include "render/scene/fill_builder.h"
 #include "render/scene/light_builder.h"
+#include "render/scene/type_builder.h"
 #include "render/lights/environment_file.h"
 
 #include <fmt/format.h>
@@ -99,7 +100,7 @@ struct WorldBuilder::Impl {
     std::optional<DumpSeries> series;
     std::optional<MixtureSeries> mixtures;
     std::optional<BuiltFill> fill;
-    std::map<std::string, std::pair<std::shared_ptr<const Exemplar>, uint64_t>> exemplars; // by grain type, with the mesh's hash
+    TypeBuilder types{device};
     std::vector<TriangleMesh> surfaces;
     std::map<size_t, std::shared_ptr<const EnvironmentMap>> maps; // by light
     std::vector<PartReport> parts;
@@ -109,7 +110,6 @@ struct WorldBuilder::Impl {
     Spheres read_spheres(size_t frame, const Progress& progress);
     GrainStore make_grains(Spheres spheres, World& world);
     void make_fill(World& world);
-    void make_types(const std::vector<uint8_t>& used, World& world);
     TriangleMesh read_surface(const SurfaceDescription& surface) const;
     void make_surfaces(World& world);
     LightSet make_lights(const World& world);
@@ -180,7 +180,7 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, World& world)
 
     std::vector<uint8_t> used(scene.types.size(), 0);
     for (size_t i = 0; i < frame.size(); ++i) used[spheres.types[i]] = 1;
-    make_types(used, world);
+    hash = types.build(scene.types, used, world, parts, hash);
 
     GrainStore grains;
     uint64_t without_size = 0;
@@ -228,44 +228,11 @@ void WorldBuilder::Impl::make_fill(World& world)
     const ProceduralFill& spheres = *fill->fill;
     set_domain(spheres.domain().bounds(), world);
     world.fill = std::make_shared<GrainFill>(fill->fill, fill->mixture, world.space);
-    make_types(std::vector<uint8_t>(scene.types.size(), 1), world); // any type may be met
+    const std::vector<uint8_t> any(scene.types.size(), 1); // any type may be met
+    hash = types.build(scene.types, any, world, parts, hash);
     hash = hash_mesh(spheres.domain().mesh(), hash);
     hash = hash_vector(spheres.tile().radius, hash_vector(spheres.tile().type, hash));
     for (const auto& variant : spheres.tile().variants) hash = hash_vector(variant, hash);
-}
-
-void WorldBuilder::Impl::make_types(const std::vector<uint8_t>& used, World& world)
-{
-    for (size_t i = 0; i < scene.types.size(); ++i) {
-        const GrainTypeDescription& type = scene.types[i];
-        GrainType made{type.name, type.material, nullptr};
-        made.material.absorption *= static_cast<float>(world.space.world_length(1));
-        const std::string part = "exemplar '" + type.name + "'";
-        if (!used[i]) {
-            parts.push_back({part, false, "no grain has this type"});
-        } else if (!type.mesh) {
-            parts.push_back({part, false, "its shape is the bounding sphere itself"});
-        } else {
-            auto& [exemplar, mesh_hash] = exemplars[type.name];
-            const Stopwatch watch;
-            if (!exemplar) {
-                const TriangleMesh mesh = read_mesh(*type.mesh);
-                auto built = std::make_shared<Exemplar>(*device, mesh, type.mesh->string());
-                if (type.material.transmits() && !built->closed()) {
-                    throw InputError(type.mesh->string(), "an open or inconsistently oriented mesh",
-                                     "a closed mesh, as the material of '" + type.name + "' is a dielectric",
-                                     "close it, or give the type an opaque material");
-                }
-                exemplar = std::move(built);
-                mesh_hash = hash_mesh(mesh, 1);
-            }
-            made.exemplar = exemplar;
-            hash = mix64(hash ^ mesh_hash);
-            parts.push_back({part, true, fmt::format("{} triangles", exemplar->triangle_count()), watch.seconds(),
-                             exemplar->bytes()});
-        }
-        world.types.push_back(std::move(made));
-    }
 }
 
 TriangleMesh WorldBuilder::Impl::read_surface(const SurfaceDescription& surface) const

@@ -177,6 +177,50 @@ TEST(SceneDescription, ReadsGrainsWrittenOut)
     EXPECT_TRUE(read_with(R"("grains": {"types": {)" + clay + R"(}, "assembly": {"spheres": []}})").assembly->spheres.empty());
 }
 
+GrainTypeDescription read_type(const std::string& type, const std::string& before = "")
+{
+    return read_with(R"("grains": {)" + before + R"("types": {"a": )" + type + R"(}, "assembly": {"spheres": []}})").types[0];
+}
+
+TEST(SceneDescription, LibraryShapesBringTheirMaterial)
+{
+    const LibraryGrain& sugar = *find_library_grain("brown_sugar");
+    const GrainTypeDescription type = read_type(R"({"shape": "brown_sugar"})");
+    EXPECT_EQ(type.library, &sugar);
+    EXPECT_FALSE(type.mesh);
+    EXPECT_TRUE(type.has_mesh());
+    EXPECT_EQ(type.shape.triangles, 0u);
+    EXPECT_EQ(type.shape.seed, 0u);
+    EXPECT_EQ(type.material.kind, MaterialKind::dielectric);
+    EXPECT_EQ(type.material.ior, sugar.material.ior);
+    EXPECT_EQ(type.material.alpha, sugar.material.alpha);
+    const GrainTypeDescription fine = read_type(R"({"shape": {"library": "brown_sugar", "triangles": 5000, "seed": 7, "parameters": {"chips": 2}}})");
+    EXPECT_EQ(fine.library, &sugar);
+    EXPECT_EQ(fine.shape.triangles, 5000u);
+    EXPECT_EQ(fine.shape.seed, 7u);
+    EXPECT_EQ(fine.shape.parameters, (std::map<std::string, double>{{"chips", 2}}));
+    // A material beside it replaces it.
+    const GrainTypeDescription clay_sugar = read_type(R"({"shape": "brown_sugar", "material": {"kind": "lambert", "reflectance": 0.25}})");
+    EXPECT_EQ(clay_sugar.library, &sugar);
+    EXPECT_EQ(clay_sugar.material.kind, MaterialKind::lambert);
+    EXPECT_EQ(clay_sugar.material.reflectance, C3f(0.25f));
+    // Spheres are meshes only when triangles are asked for.
+    EXPECT_FALSE(read_type(R"({"shape": "diffuse_sphere"})").has_mesh());
+    EXPECT_TRUE(read_type(R"({"shape": {"library": "diffuse_sphere", "triangles": 80}})").has_mesh());
+}
+
+TEST(SceneDescription, UnitsConvertTheLibrarysAbsorptionOnly)
+{
+    const C3f per_metre = find_library_grain("brown_sugar")->material.absorption;
+    ASSERT_GT(per_metre.x, 0);
+    for (const auto& [unit, metres] : std::vector<std::pair<std::string, float>>{
+             {"", 1e-3f}, {R"("unit": "mm", )", 1e-3f}, {R"("unit": "m", )", 1}, {R"("unit": "cm", )", 1e-2f}, {R"("unit": "um", )", 1e-6f}, {R"("unit": 0.5, )", 0.5f}}) {
+        const C3f found = read_type(R"({"shape": "brown_sugar"})", unit).material.absorption;
+        for (int i = 0; i < 3; ++i) EXPECT_FLOAT_EQ(found[i], metres * per_metre[i]) << unit;
+        EXPECT_EQ(read_type(R"({"shape": "brown_sugar", "material": {"kind": "dielectric", "absorption": [1, 2, 3]}})", unit).material.absorption, C3f(1, 2, 3));
+    }
+}
+
 TEST(SceneDescription, ReadsIntegrators)
 {
     const SceneDescription scene = read_with(R"("medium": [], "integrator": {"kind": "ept", "accuracy": "reference", "max_depth": 7})");
@@ -270,7 +314,18 @@ const std::vector<Wrong> wrong_scenes{
     {R"("grains": {"assembly": {"spheres": []}})", "/grains", "no key 'types'", "'types'", ""},
     {R"("grains": {"types": {}, "assembly": {"spheres": []}})", "/grains/types", "{}", "at least one grain type", ""},
     {R"("grains": {"types": {)" + clay + "}}", "/grains", "no key 'assembly'", "'assembly'", ""},
-    {R"("grains": {"types": {"a": {"shape": "sugar", "material": {"kind": "lambert"}}}, "assembly": {"spheres": []}})", "/grains/types/a/shape", "\"sugar\"", "\"sphere\" or {\"mesh\": FILE}", "no other shapes"},
+    {R"("grains": {"types": {"a": {"shape": "cube", "material": {"kind": "lambert"}}}, "assembly": {"spheres": []}})", "/grains/types/a/shape", "\"cube\"", "\"sphere\", {\"mesh\": FILE} or a grain of the library: sugar, brown_sugar", ""},
+    {R"("grains": {"types": {"a": {"shape": "brown_suger"}}, "assembly": {"spheres": []}})", "/grains/types/a/shape", "\"brown_suger\"", "white_sand", "did you mean 'brown_sugar'?"},
+    {R"("grains": {"types": {"a": {"shape": "spere"}}, "assembly": {"spheres": []}})", "/grains/types/a/shape", "\"spere\"", "\"sphere\"", "did you mean 'sphere'?"},
+    {R"("grains": {"types": {"a": {"shape": 3}}, "assembly": {"spheres": []}})", "/grains/types/a/shape", "3", "{\"library\": NAME}", ""},
+    {R"("grains": {"types": {"a": {"shape": {"library": "suggar"}}}, "assembly": {"spheres": []}})", "/grains/types/a/shape/library", "\"suggar\"", "sugar", "did you mean 'sugar'?"},
+    {R"("grains": {"types": {"a": {"shape": {"library": "sugar", "triangles": 10}}}, "assembly": {"spheres": []}})", "/grains/types/a/shape/triangles", "10", "20..", ""},
+    {R"("grains": {"types": {"a": {"shape": {"library": "sugar", "sed": 1}}}, "assembly": {"spheres": []}})", "/grains/types/a/shape", "'sed'", "seed", "did you mean 'seed'?"},
+    {R"("grains": {"types": {"a": {"shape": {"library": "sugar", "parameters": {"chip": 1}}}}, "assembly": {"spheres": []}})", "/grains/types/a/shape/parameters", "'chip'", "chips", "did you mean 'chips'?"},
+    {R"("grains": {"types": {"a": {"shape": {"library": "sugar", "parameters": {"chips": -1}}}}, "assembly": {"spheres": []}})", "/grains/types/a/shape/parameters/chips", "-1", "0..30", ""},
+    {R"("grains": {"unit": "inch", "types": {"a": {"shape": "sugar"}}, "assembly": {"spheres": []}})", "/grains/unit", "\"inch\"", "m, cm, mm, um", ""},
+    {R"("grains": {"unit": 0, "types": {"a": {"shape": "sugar"}}, "assembly": {"spheres": []}})", "/grains/unit", "0", "above 0", ""},
+    {R"("grains": {"unit": true, "types": {"a": {"shape": "sugar"}}, "assembly": {"spheres": []}})", "/grains/unit", "true", "metres per unit", ""},
     {R"("grains": {"types": {"a": {"shape": {"file": "x.obj"}, "material": {"kind": "lambert"}}}, "assembly": {"spheres": []}})", "/grains/types/a/shape", "no key 'mesh'", "'mesh'", ""},
     {R"("grains": {"types": {"a": {"shape": "sphere"}}, "assembly": {"spheres": []}})", "/grains/types/a", "no key 'material'", "'material'", ""},
     {R"("grains": {"types": {)" + clay + R"(}, "assembly": {}})", "/grains/assembly", "{}", "\"dump\", \"fill\" or \"spheres\"", ""},

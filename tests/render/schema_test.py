@@ -66,6 +66,13 @@ GOOD_CHANGES = [
     (("grains", "assembly"), {"spheres": [{"center": [0, 0, 0], "radius": 0, "type": "glass"}]}),
     (("grains",), {"types": {"only": {"shape": "sphere", "material": {"kind": "lambert"}}}, "assembly": {"dump": "two.dump", "radius": 1}}),
     (("grains",), {"types": {"only": {"shape": "sphere", "material": {"kind": "lambert"}}}, "assembly": {"spheres": [{"center": [0, 0, 0], "radius": 1}]}}),
+    *[(("grains", "types", "glass"), {"shape": name}) for name in (
+        "sugar", "brown_sugar", "ice", "snowflake", "white_sand", "yellow_sand", "brown_sand", "dark_brown_sand", "black_sand", "flour", "hairball",
+        "cinnamon", "dielectric_sphere", "diffuse_sphere")],
+    (("grains", "types", "glass", "shape"), "sugar"), (("grains", "types", "glass", "shape"), {"library": "sugar"}),
+    (("grains", "types", "glass"), {"shape": {"library": "sugar", "triangles": 20, "seed": 3, "parameters": {"chips": 9, "rounding": 0.05}}}),
+    (("grains", "types", "glass"), {"shape": {"library": "diffuse_sphere", "triangles": 80, "parameters": {}}}),
+    (("grains", "unit"), "m"), (("grains", "unit"), "cm"), (("grains", "unit"), "mm"), (("grains", "unit"), "um"), (("grains", "unit"), 0.0254),
 ]
 
 # Each on its own makes a scene that both refuse.
@@ -93,6 +100,13 @@ BAD_CHANGES = [
     (("grains", "types", "glass", "shape"), {"mesh": "tetra.obj", "scale": 1}), (("grains", "types", "glass", "material"), REMOVE),
     (("grains", "types", "glass", "material", "ior"), 0.05), (("grains", "types", "glass", "material", "absorption"), -1),
     (("grains", "types", "pebble", "material", "reflectance"), 1.5), (("grains", "types", "pebble", "material", "tint"), 1), (("grains", "types", "pebble", "color"), 1),
+    (("grains", "types", "glass"), {"shape": "sphere"}), (("grains", "types", "glass"), {"shape": {"mesh": "tetra.obj"}}), (("grains", "types", "glass"), {}),
+    (("grains", "types", "glass"), {"shape": "suger"}), (("grains", "types", "glass", "shape"), {"library": "sphere"}), (("grains", "types", "glass", "shape"), 3),
+    (("grains", "types", "glass", "shape"), {"library": "sugar", "mesh": "tetra.obj"}), (("grains", "types", "glass", "shape"), {"library": "sugar", "triangles": 19}),
+    (("grains", "types", "glass", "shape"), {"library": "sugar", "triangles": 4000001}), (("grains", "types", "glass", "shape"), {"library": "sugar", "triangles": 30.5}),
+    (("grains", "types", "glass", "shape"), {"library": "sugar", "seed": -1}), (("grains", "types", "glass", "shape"), {"library": "sugar", "parameters": []}),
+    (("grains", "types", "glass", "shape"), {"library": "sugar", "parameters": {"chips": "many"}}), (("grains", "types", "glass"), {"shape": "sugar", "material": "ice"}),
+    (("grains", "unit"), 0), (("grains", "unit"), -1), (("grains", "unit"), "inch"), (("grains", "unit"), [1]), (("grains", "unit"), 1e31),
     (("grains", "assembly"), REMOVE), (("grains", "assembly"), {}), (("grains", "assembly"), {"fill": "a.off"}), (("grains", "assembly", "spheres"), []),
     (("grains", "assembly", "types"), REMOVE), (("grains", "assembly", "types"), {}), (("grains", "assembly", "types"), {"one": "glass"}),
     (("grains", "assembly", "types"), {"01": "glass"}), (("grains", "assembly", "types"), {"+1": "glass"}), (("grains", "assembly", "types"), {"1": 3}),
@@ -115,6 +129,8 @@ BEYOND_A_SCHEMA = [
     (("grains", "assembly", "dump"), "no.dump"), (("surfaces", 0, "mesh"), "no.obj"), (("grains", "mixture"), "granite"),
     (("grains", "mixture"), {"kind": "random", "types": ["glass", "granite"]}), (("grains", "mixture"), {"file": "no.json"}),
     (("grains", "assembly", "types"), {"99999999999": "glass"}),
+    (("grains", "types", "glass", "shape"), {"library": "sugar", "parameters": {"chps": 3}}),
+    (("grains", "types", "glass", "shape"), {"library": "sugar", "parameters": {"chips": 31}}),
 ]
 
 

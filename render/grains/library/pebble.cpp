@@ -1,0 +1,96 @@
+#include "render/grains/library/half_spaces.h"
+#include "render/grains/library/radial_surface.h"
+#include "render/grains/library/shape_generator.h"
+#include "render/grains/library/shape_random.h"
+
+#include "mixtures/noise.h"
+
+namespace scree {
+
+namespace {
+
+/// Outside of a sphere that lies outside of the grain: a shell-shaped (conchoidal) break.
+struct Scoop {
+    V3d center;
+    double radius;
+
+    /// Where the ray from the origin enters the sphere, or infinity.
+    double entry(const V3d& d) const
+    {
+        const double b = center.dot(d), discriminant = b * b - center.length2() + radius * radius;
+        return b > 0 && discriminant > 0 ? b - std::sqrt(discriminant) : std::numeric_limits<double>::infinity();
+    }
+};
+
+/// Directions apart from each other: each the best of a few, farthest from those before.
+std::vector<V3d> spread_directions(size_t count, ShapeRandom& random)
+{
+    std::vector<V3d> directions;
+    while (directions.size() < count) {
+        V3d best(0);
+        double best_cosine = 2;
+        for (int trial = 0; trial < 6; ++trial) {
+            const V3d d = random.direction();
+            double nearest = -1;
+            for (const V3d& other : directions) nearest = std::max(nearest, d.dot(other));
+            if (nearest < best_cosine) {
+                best = d;
+                best_cosine = nearest;
+            }
+        }
+        directions.push_back(best);
+    }
+    return directions;
+}
+
+} // namespace
+
+TriangleMesh make_pebble(const ShapeRequest& request)
+{
+    ShapeRandom random(request.seed, 0x706562);
+    const double middle = request["middle_axis"] * (1 + 0.1 * random.uniform(-1, 1));
+    const double least = request["short_axis"] * (1 + 0.1 * random.uniform(-1, 1));
+    const V3d axes(1, std::min(1.0, middle), std::min({1.0, middle, least}));
+
+    std::vector<HalfSpace> planes;
+    for (const V3d& n : spread_directions(static_cast<size_t>(request["facets"]), random)) {
+        planes.push_back({n, 1 - request["angularity"] * random.uniform(0.35, 1)});
+    }
+    std::vector<Scoop> scoops;
+    for (const V3d& n : spread_directions(static_cast<size_t>(request["breaks"]), random)) {
+        // Radius far above depth: no ray touches the shell's rim inside the grain, so that the surface has no step.
+        const double radius = random.uniform(0.9, 2), depth = request["break_depth"] * random.uniform(0.5, 1);
+        scoops.push_back({n * (1 - depth + radius), radius});
+    }
+
+    NoiseOptions bumps;
+    bumps.scale = V3d(request["bump_size"]);
+    bumps.octaves = 1 + static_cast<int>(std::clamp(std::log2(0.5 * request["bump_size"] / mean_edge(request.triangles)), 0.0, 6.0));
+    bumps.gain = 0.55;
+    bumps.seed = random.next();
+    const FractalNoise noise(bumps);
+    const double roughness = request["roughness"], rounding = request["rounding"], p = 1 / rounding;
+    const RadialFunction radius = [&](const V3d& d) {
+        // In the space where the ellipsoid is the unit sphere.
+        const V3d stretched(d.x / axes.x, d.y / axes.y, d.z / axes.z);
+        const double length = stretched.length();
+        const V3d u = stretched / length;
+        double sum = 1;
+        for (const HalfSpace& plane : planes) {
+            const double term = plane.normal.dot(u) / plane.distance;
+            if (term > 0) sum += std::pow(term, p);
+        }
+        double r = std::pow(sum, -rounding);
+        for (const Scoop& scoop : scoops) r = std::min(r, scoop.entry(u));
+        r /= length;
+        return r * (1 + roughness * noise(r * d));
+    };
+    return radial_surface(radius, request.triangles);
+}
+
+TriangleMesh make_ball(const ShapeRequest& request)
+{
+    return radial_surface([](const V3d&) { return 1.0; }, request.triangles);
+}
+
+} // namespace scree
