@@ -70,7 +70,7 @@ void fill_filter(const RTCFilterFunctionNArguments* args)
     double t = 0;
     const bool enters = enters_sphere(sphere, query.o, query.d, t);
     if (enters ? far_face || t >= query.best : !visit.starts_here || (query.o - sphere.centre).length() > sphere.radius) return;
-    if (!tracer.fill_.is_whole(number, entry.row)) return;
+    if (!tracer.fill_.is_whole(number, entry.row, placed)) return;
 
     const Place place{HitKind::grain, id, no_triangle, tracer.world_.fill->type(id, placed)};
     if (tracer.world_.types[place.type].exemplar) {
