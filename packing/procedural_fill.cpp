@@ -15,7 +15,6 @@ namespace scree {
 namespace {
 
 constexpr uint64_t kinds_kept = uint64_t{1} << 24;
-constexpr uint64_t answers_kept = uint64_t{1} << 22; // 8 bytes each
 // Voxels along the domain. Light that comes back from a fill has seldom been deeper than some ten spheres: where those are
 // small beside a voxel the field only sorts cells, and where they are not, this many settle most of the rest.
 constexpr int field_cells = 96;
@@ -39,7 +38,8 @@ Imath::V3d snap(const Imath::V3d& p, double step, double inverse)
 } // namespace
 
 ProceduralFill::ProceduralFill(std::shared_ptr<const Domain> domain, std::shared_ptr<const PackingTile> tile, const FillOptions& options)
-    : domain_(std::move(domain)), tile_(std::move(tile)), field_(*domain_, field_cells)
+    : domain_(std::move(domain)), tile_(std::move(tile)), field_(*domain_, field_cells),
+      near_surface_(*domain_, tile_->largest_radius() * (options.radius / tile_->mean_radius()) * (1 + 0x1p-20))
 {
     const Imath::Box3d& bounds = domain_->bounds();
     origin_ = 0.5 * bounds.min + 0.5 * bounds.max;
@@ -79,7 +79,6 @@ ProceduralFill::ProceduralFill(std::shared_ptr<const Domain> domain, std::shared
         count_[axis] = static_cast<uint64_t>(static_cast<int64_t>(std::floor(hi[k])) + 2 - first_[axis]);
     }
     if (cell_count() <= kinds_kept) kinds_ = std::make_unique<std::atomic<uint8_t>[]>(cell_count());
-    answers_ = std::make_unique<std::atomic<uint64_t>[]>(answers_kept);
 }
 
 FillCell ProceduralFill::cell_at(const Imath::V3d& lattice) const
@@ -153,23 +152,18 @@ bool ProceduralFill::is_whole(uint64_t cell_number, uint64_t row) const
 {
     const CellKind cell_kind = kind(cell_number);
     if (cell_kind != CellKind::boundary) return cell_kind == CellKind::inside;
-    const uint64_t id = this->id(cell_number, row);
-    std::atomic<uint64_t>& answer = answers_[mix64(id) % answers_kept];
-    const uint64_t remembered = answer.load(std::memory_order_relaxed);
-    if ((remembered >> 1) == id + 1) return remembered & 1;
-    const bool whole = decide(sphere(id));
-    answer.store(2 * id + 2 + whole, std::memory_order_relaxed);
-    return whole;
+    return decide(sphere(id(cell_number, row)));
+}
+
+bool ProceduralFill::is_whole(uint64_t cell_number, uint64_t, const Sphere& sphere) const
+{
+    const CellKind cell_kind = kind(cell_number);
+    return cell_kind == CellKind::boundary ? decide(sphere) : cell_kind == CellKind::inside;
 }
 
 bool ProceduralFill::decide(const Sphere& sphere) const
 {
-    const DistanceField::Interval distance = field_.signed_distance(sphere.centre);
-    const double r = sphere.radius;
-    if (distance.lo > r) return true;
-    if (distance.hi < r) return false;
-    exact_tests_.fetch_add(1, std::memory_order_relaxed);
-    return domain_->contains_sphere(sphere.centre, r);
+    return near_surface_.contains_sphere(sphere.centre, sphere.radius);
 }
 
 double ProceduralFill::expected_count() const
@@ -181,7 +175,7 @@ uint64_t ProceduralFill::bytes() const
 {
     uint64_t places = 0;
     for (const auto& variant : tile_->variants) places += variant.size() * sizeof(Imath::V3d);
-    return places + tile_->rows() * (sizeof(float) + sizeof(int32_t)) + field_.bytes() + answers_kept * sizeof(uint64_t) +
+    return places + tile_->rows() * (sizeof(float) + sizeof(int32_t)) + field_.bytes() + near_surface_.bytes() +
            (kinds_ ? cell_count() : 0);
 }
 

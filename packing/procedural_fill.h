@@ -3,6 +3,7 @@
 #include "packing/distance_field.h"
 #include "packing/domain.h"
 #include "packing/packing_tile.h"
+#include "packing/surface_cells.h"
 
 #include <Imath/ImathMatrix.h>
 
@@ -77,14 +78,16 @@ public:
 
     /// What the distance field says of all the spheres whose centre is in the cell.
     CellKind kind(uint64_t cell_number) const;
-    /// Whether the sphere is in the fill: the whole of it in the domain. Decided when first asked, and remembered where there is room.
+    /// Whether the sphere is in the fill: the whole of it in the domain. 
     bool is_whole(uint64_t cell_number, uint64_t row) const;
+    /// The same, where the sphere is at hand.
+    bool is_whole(uint64_t cell_number, uint64_t row, const Sphere& sphere) const;
 
     /// How many spheres there may be: by the domain's volume, without looking.
     double expected_count() const;
     uint64_t bytes() const;
-    /// How many times CGAL had to be asked.
-    uint64_t exact_tests() const { return exact_tests_.load(); }
+    /// How many times the domain had to be asked.
+    uint64_t exact_tests() const { return near_surface_.domain_tests(); }
 
 private:
     bool decide(const Sphere& sphere) const;
@@ -92,6 +95,7 @@ private:
     std::shared_ptr<const Domain> domain_;
     std::shared_ptr<const PackingTile> tile_;
     DistanceField field_;
+    SurfaceCells near_surface_;
     Imath::V3d origin_;
     double scale_ = 1, voxel_ = 1, step_ = 1, inverse_step_ = 1, largest_radius_ = 0;
     Imath::M33d rotation_, to_lattice_, from_lattice_; // Imath multiplies row vectors from the left
@@ -101,9 +105,6 @@ private:
 
     // Cells by number, where they are few enough to be kept.
     mutable std::unique_ptr<std::atomic<uint8_t>[]> kinds_;
-    // Answers of is_whole by a hash of the id, the last one to come stays: 2 id + answer + 2, or 0.
-    mutable std::unique_ptr<std::atomic<uint64_t>[]> answers_;
-    mutable std::atomic<uint64_t> exact_tests_{0};
 };
 
 } // namespace scree

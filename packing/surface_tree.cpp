@@ -228,10 +228,10 @@ private:
     double nearest_ = HUGE_VAL;
 };
 
-/// Gathers triangles whose boxes are within a distance.
-class NearTraversal {
+/// Gathers triangles whose boxes are within a distance: their corners or their numbers.
+template <class Found> class NearTraversal {
 public:
-    NearTraversal(const V3d& point, double scale, double within, std::vector<Corners>& found)
+    NearTraversal(const V3d& point, double scale, double within, std::vector<Found>& found)
         : square_(safe_square(within)), box_distance_(point, scale), found_(found)
     {
     }
@@ -240,13 +240,15 @@ public:
     bool do_intersect(const V3d&, const Node& node) const { return !(box_distance_(node.bbox()) > square_); }
     void intersection(const V3d&, const Face& face)
     {
-        if (!(box_distance_(face.corners()) > square_)) found_.push_back(face.corners());
+        if (box_distance_(face.corners()) > square_) return;
+        if constexpr (std::is_same_v<Found, Corners>) found_.push_back(face.corners());
+        else found_.push_back(face.id());
     }
 
 private:
     double square_;
     BoxDistance box_distance_;
-    std::vector<Corners>& found_;
+    std::vector<Found>& found_;
 };
 
 Corners corners_of(const TriangleMesh& mesh, size_t face)
@@ -336,6 +338,12 @@ DistanceBounds SurfaceTree::rough_distance(const V3d& point, double slack) const
 void SurfaceTree::collect_near(const V3d& point, double distance, std::vector<Corners>& triangles) const
 {
     NearTraversal traversal(point, impl_->scale, distance * impl_->scale, triangles);
+    impl_->tree.traversal(point, traversal);
+}
+
+void SurfaceTree::collect_near(const V3d& point, double distance, std::vector<uint32_t>& faces) const
+{
+    NearTraversal traversal(point, impl_->scale, distance * impl_->scale, faces);
     impl_->tree.traversal(point, traversal);
 }
 

@@ -40,6 +40,8 @@ public:
 
     /// Appends the triangles that may be within a distance of the point; none of those that are is left out.
     void collect_near(const Imath::V3d& point, double distance, std::vector<Corners>& triangles) const;
+    /// The same, by their numbers in the mesh.
+    void collect_near(const Imath::V3d& point, double distance, std::vector<uint32_t>& faces) const;
 
 private:
     struct Impl;

@@ -70,7 +70,7 @@ void fill_filter(const RTCFilterFunctionNArguments* args)
     double t = 0;
     const bool enters = enters_sphere(sphere, query.o, query.d, t);
     if (enters ? far_face || t >= query.best : !visit.starts_here || (query.o - sphere.centre).length() > sphere.radius) return;
-    if (!tracer.fill_.is_whole(number, entry.row)) return;
+    if (!tracer.fill_.is_whole(number, entry.row, placed)) return;
 
     const Place place{HitKind::grain, id, no_triangle, tracer.world_.fill->type(id, placed)};
     if (tracer.world_.types[place.type].exemplar && !query.is_proxy(id)) {
@@ -166,29 +166,81 @@ void FillTracer::make_domain()
     device_->check("building a domain");
 }
 
-bool FillTracer::next_inside(const TracerQuery& query, double s, Segment& segment) const
+/// Where a ray is inside the domain, as far as it has been looked at: from begin to end (tile units along the ray).
+struct FillTracer::Inside {
+    double begin = 0, end = 0;
+    bool goes_on = false; // beyond the end, until the surface is crossed
+};
+
+bool FillTracer::next_crossing(const TracerQuery& query, double s, double end, Crossing& crossing) const
 {
     const double t = s / rate_;
     const V3d start = query.o + t * query.d;
-    RTCRayHit ray = make_ray(start, query.d, std::numeric_limits<double>::infinity());
+    RTCRayHit ray = make_ray(start, query.d, end / rate_ - t);
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcIntersect1(domain_, &context, &ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    const double margin = 0x1p-19 * (1 + start.length());
-    const double crossing = t + ray.ray.tfar;
-    const bool leaves = ray.hit.Ng_x * query.d.x + ray.hit.Ng_y * query.d.y + ray.hit.Ng_z * query.d.z > 0;
-    if (leaves) {
-        segment = {s, (crossing + margin) * rate_};
-    } else {
-        segment.begin = std::max(s, (crossing - margin) * rate_);
-        segment.end = segment.begin; // after the first cell inside we shall know more
-    }
+    const V3d normal(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z);
+    const double cosine = normal.dot(query.d) / normal.length();
+    // Rounding moves start and surface across each other, which moves the crossing along the ray by as much over the cosine. Where the
+    // ray all but glides along the surface it may be on either side.
+    constexpr double least = 0x1p-10;
+    const double margin = 0x1p-19 * (1 + start.length()) / std::max(std::abs(cosine), least);
+    const double at = t + ray.ray.tfar;
+    crossing = {std::max(s, (at - margin) * rate_), (at + margin) * rate_, cosine < -least};
     return true;
+}
+
+bool FillTracer::find_inside(const TracerQuery& query, double s, Inside& inside) const
+{
+    inside.begin = s;
+    if (inside.goes_on) return true;
+    Crossing crossing;
+    if (!next_crossing(query, s, std::numeric_limits<double>::infinity(), crossing)) return false;
+    inside.end = crossing.end;
+    inside.goes_on = crossing.enters;
+    if (crossing.enters) inside.begin = crossing.begin;
+    return true;
+}
+
+void FillTracer::follow_inside(const TracerQuery& query, double end, Inside& inside) const
+{
+    if (!inside.goes_on || inside.end >= end) return;
+    Crossing crossing;
+    inside.goes_on = !next_crossing(query, std::max(inside.begin, inside.end), end, crossing);
+    inside.end = inside.goes_on ? end : crossing.end;
+}
+
+bool FillTracer::reaches_domain(const TracerQuery& query, double& s) const
+{
+    const Imath::Box3d& bounds = fill_.domain().bounds();
+    const V3d lo = world_.space.point(bounds.min), hi = world_.space.point(bounds.max);
+    // Double rounds at 2^-53.
+    const double margin = 0x1p-44 * (query.o.length() + lo.length() + hi.length());
+    double begin = 0, end = query.best;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double to_lo = lo[axis] - margin - query.o[axis], to_hi = hi[axis] + margin - query.o[axis];
+        if (query.d[axis] == 0) {
+            if (to_lo > 0 || to_hi < 0) return false;
+            continue;
+        }
+        const double a = to_lo / query.d[axis], b = to_hi / query.d[axis];
+        begin = std::max(begin, std::min(a, b));
+        end = std::min(end, std::max(a, b));
+    }
+    s = begin * rate_;
+    return begin <= end;
 }
 
 void FillTracer::walk(TracerQuery& query, bool any) const
 {
+    double s = 0;
+    Inside inside;
+    // On a grain of the fill the ray starts inside.
+    inside.goes_on = query.from.kind == HitKind::grain;
+    if (!inside.goes_on && !reaches_domain(query, s)) return;
+
     const double unit = world_.space.world_length(1);
     Visit visit;
     rtcInitIntersectContext(&visit.context);
@@ -197,40 +249,45 @@ void FillTracer::walk(TracerQuery& query, bool any) const
     visit.o = fill_.to_lattice(query.o * unit);
     visit.d = fill_.direction_to_lattice(query.d);
     const V3d size = fill_.tile().size;
-
-    double s = 0;
-    Segment inside{0, 0};
-    visit.cell = fill_.cell_at(visit.o);
-    // On a grain of the fill the ray starts inside.
-    for (bool known = query.from.kind == HitKind::grain;; known = false) {
-        if (!known) {
-            if (!next_inside(query, s, inside)) return;
-            // Without a jump the walk goes on in the cell it has come to, which s at its face may not tell.
-            if (inside.begin > s) visit.cell = fill_.cell_at(visit.o + inside.begin * visit.d);
-            s = inside.begin;
-        }
-        do {
-            if (s >= query.best * rate_) return;
-            if (!fill_.has(visit.cell)) return; // beyond the domain's bounds, which a ray leaves once
-            int out = 0;
-            double leave = std::numeric_limits<double>::infinity();
-            for (int axis = 0; axis < 3; ++axis) {
-                if (visit.d[axis] == 0) continue;
-                const int64_t c = axis == 0 ? visit.cell.x : axis == 1 ? visit.cell.y : visit.cell.z;
-                const double face = static_cast<double>(c + (visit.d[axis] > 0)) * size[axis];
-                const double at = (face - visit.o[axis]) / visit.d[axis];
-                if (at < leave) {
-                    leave = at;
-                    out = axis;
-                }
+    visit.cell = fill_.cell_at(visit.o + s * visit.d);
+    while (s < query.best * rate_ && fill_.has(visit.cell)) {
+        int out = 0;
+        double leave = std::numeric_limits<double>::infinity();
+        for (int axis = 0; axis < 3; ++axis) {
+            if (visit.d[axis] == 0) continue;
+            const int64_t c = axis == 0 ? visit.cell.x : axis == 1 ? visit.cell.y : visit.cell.z;
+            const double face = static_cast<double>(c + (visit.d[axis] > 0)) * size[axis];
+            const double at = (face - visit.o[axis]) / visit.d[axis];
+            if (at < leave) {
+                leave = at;
+                out = axis;
             }
-            visit.number = fill_.number(visit.cell);
-            if (fill_.kind(visit.number) != ProceduralFill::CellKind::outside) this->visit(visit, s, leave, any);
+        }
+        leave = std::max(leave, s);
+        visit.number = fill_.number(visit.cell);
+        const ProceduralFill::CellKind kind = fill_.kind(visit.number);
+        if (kind == ProceduralFill::CellKind::inside) {
+            this->visit(visit, s, leave, any);
             if (any && query.place.kind != HitKind::none) return;
-            s = std::max(s, leave);
-            const int64_t step = visit.d[out] > 0 ? 1 : -1;
-            (out == 0 ? visit.cell.x : out == 1 ? visit.cell.y : visit.cell.z) += step;
-        } while (s < inside.end);
+            inside = {leave, leave, true};
+        } else {
+            // Part by part of what is inside.
+            for (double from = s; from < leave && from < query.best * rate_; from = inside.end) {
+                if (from >= inside.end && !find_inside(query, from, inside)) return;
+                if (inside.begin >= leave) break;
+                follow_inside(query, leave, inside);
+                if (kind != ProceduralFill::CellKind::outside) this->visit(visit, std::max(from, inside.begin), std::min(leave, inside.end), any);
+                if (any && query.place.kind != HitKind::none) return;
+            }
+            if (inside.begin > leave) {
+                s = inside.begin;
+                visit.cell = fill_.cell_at(visit.o + s * visit.d);
+                continue;
+            }
+        }
+        s = leave;
+        const int64_t step = visit.d[out] > 0 ? 1 : -1;
+        (out == 0 ? visit.cell.x : out == 1 ? visit.cell.y : visit.cell.z) += step;
     }
 }
 

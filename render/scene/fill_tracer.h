@@ -40,16 +40,25 @@ private:
         RTCSceneTy* scene = nullptr;
         std::vector<Entry> entries; // by Embree's primitive
     };
-    struct Segment {
+    struct Inside;
+    /// Of a ray and the domain's surface: somewhere from begin to end (tile units along the ray).
+    struct Crossing {
         double begin, end;
+        bool enters; ///< for certain
     };
 
     void make_variant(uint32_t variant);
     void make_domain();
     void walk(TracerQuery& query, bool any) const;
-    /// The part inside the domain that follows s (tile units along the ray): begin may be before the true one, end beyond or the same as
-    /// begin when it is not known. False when there is none.
-    bool next_inside(const TracerQuery& query, double s, Segment& segment) const;
+    /// The first crossing from s to end; false when there is none.
+    bool next_crossing(const TracerQuery& query, double s, double end, Crossing& crossing) const;
+    /// The first part of the ray inside the domain from s on: it may begin before the true one and end after it. False when there
+    /// is none.
+    bool find_inside(const TracerQuery& query, double s, Inside& inside) const;
+    /// Looks for the end of a part that goes on, up to `end`.
+    void follow_inside(const TracerQuery& query, double end, Inside& inside) const;
+    /// Where the ray, from outside, comes into the domain's bounds; false when it does not.
+    bool reaches_domain(const TracerQuery& query, double& s) const;
     void visit(Visit& visit, double begin, double end, bool any) const;
 
     friend void fill_filter(const RTCFilterFunctionNArguments* args);
