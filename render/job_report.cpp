@@ -45,11 +45,16 @@ const char* kind_name(HitKind kind)
 
 } // namespace
 
+std::string integrator_of(const SceneDescription& scene)
+{
+    return scene.integrator.has_proxies() ? "ppt" : "ept";
+}
+
 std::string plan_text(const WorldBuilder& builder, const World& world, size_t frame)
 {
     const SceneDescription& scene = builder.scene();
-    std::string text = fmt::format("{}: {}x{}, integrator {}", scene.file.string(), scene.film.width, scene.film.height, scene.integrator);
-    if (scene.integrator == "auto") text += " (explicit path tracing)";
+    std::string text = fmt::format("{}: {}x{}, integrator {}", scene.file.string(), scene.film.width, scene.film.height, scene.integrator.name());
+    if (scene.integrator.kind == IntegratorKind::automatic) text += " (explicit path tracing)";
     text += builder.frame_name(frame).empty() ? "\n" : fmt::format(", frame {} of {}: {}\n", frame, builder.frame_count(), builder.frame_name(frame));
     for (const PartReport& part : builder.parts()) text += part_text(part);
 
@@ -81,7 +86,7 @@ std::string statistics_text(const FrameReport& report)
     return text;
 }
 
-std::string statistics_json(const std::vector<FrameReport>& reports)
+std::string statistics_json(const std::vector<FrameReport>& reports, const std::string& integrator)
 {
     using nlohmann::json;
     json frames = json::array();
@@ -97,7 +102,7 @@ std::string statistics_json(const std::vector<FrameReport>& reports)
                           {"segments_per_second", per_second(s.segments, s.seconds)}, {"non_finite", s.non_finite}, {"leaks", s.leaks},
                           {"cut", s.cut}, {"stopped", s.stopped}, {"cancelled", s.cancelled}, {"timed_out", s.timed_out}});
     }
-    return json{{"version", SCREE_VERSION}, {"integrator", "ept"}, {"peak_memory_bytes", peak_memory()}, {"frames", frames}}.dump(2) + "\n";
+    return json{{"version", SCREE_VERSION}, {"integrator", integrator}, {"peak_memory_bytes", peak_memory()}, {"frames", frames}}.dump(2) + "\n";
 }
 
 std::string debug_text(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter,

@@ -54,7 +54,7 @@ FrameRange parse_frames(const std::string& text)
 }
 
 struct Arguments {
-    std::string size, crop, pixels, frames, debug, strategy = "both";
+    std::string integrator, accuracy, size, crop, pixels, frames, debug, strategy = "both";
     std::vector<std::string> overrides, aov;
     RenderJob job;
 };
@@ -95,8 +95,11 @@ void take_over(Arguments& a)
         }
         job.aov.push_back(static_cast<Aov>(it - aov_names.begin()));
     }
+    const auto place_of = [](const std::vector<std::string>& names, const std::string& name) { return std::find(names.begin(), names.end(), name) - names.begin(); };
+    if (!a.integrator.empty()) job.integrator = static_cast<IntegratorKind>(place_of(integrator_names, a.integrator));
+    if (!a.accuracy.empty()) job.accuracy = static_cast<Accuracy>(place_of(accuracy_names, a.accuracy));
     const std::vector<std::string> strategies{"both", "lights", "scattering"};
-    job.options.path.direct_light = static_cast<DirectLight>(std::find(strategies.begin(), strategies.end(), a.strategy) - strategies.begin());
+    job.options.path.direct_light = static_cast<DirectLight>(place_of(strategies, a.strategy));
 }
 
 } // namespace
@@ -112,7 +115,9 @@ void add_render_command(CLI::App& app)
                         "Picture to write: .exr, or .png, .jpg for looking at; repeatable; %04d takes the frame number (default: the scene's name .exr)");
     command->add_option("--spp", job.spp, "Samples a pixel (default 64, or what --timeout allows)")->check(CLI::Range(1u, 1u << 30));
     command->add_option("--timeout", job.options.timeout, "Stop after this many seconds of rendering a frame")->check(CLI::PositiveNumber);
-    command->add_option("--integrator", job.integrator, "auto or ept")->check(CLI::IsMember({"auto", "ept"}));
+    command->add_option("--integrator", a.integrator, "auto, ept (grains as they are) or ppt (grains averaged over rotations, faster)")->check(CLI::IsMember(integrator_names));
+    command->add_option("--accuracy", a.accuracy, "How far approximations may go: reference, high, standard or draft")->check(CLI::IsMember(accuracy_names));
+    command->add_option("--explicit-grains", job.explicit_grains, "With ppt: how many grains of a path are traced as they are (default 0)");
     command->add_option("--frames", a.frames, "Frames to render, counted from 0: A, A:B or A:B:STEP, B included (default: the first)");
     command->add_option("--size", a.size, "Size of the picture, WIDTHxHEIGHT");
     command->add_option("--cropwindow", a.crop, "Render only x0,x1,y0,y1 of the picture, in 0..1");

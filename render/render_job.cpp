@@ -81,7 +81,7 @@ PictureMetadata make_metadata(const RenderJob& job, const WorldBuilder& builder,
                               size_t frame, const RenderStatistics& statistics)
 {
     PictureMetadata metadata;
-    metadata.texts = {{"software", "Scree"}, {"version", SCREE_VERSION}, {"integrator", "ept"},
+    metadata.texts = {{"software", "Scree"}, {"version", SCREE_VERSION}, {"integrator", integrator_of(builder.scene())},
                       {"sceneHash", fmt::format("{:016x}", builder.scene_hash())}, {"seed", std::to_string(job.options.seed)}};
     if (builder.scene().assembly && !builder.frame_name(frame).empty()) metadata.texts["particles"] = builder.frame_name(frame);
     std::vector<std::string> types;
@@ -149,7 +149,7 @@ public:
         if (stats_file) {
             AtomicFile file(job_.stats_json);
             std::ofstream out(file.temporary());
-            out << statistics_json(reports_);
+            out << statistics_json(reports_, integrator_of(scene_));
             out.close();
             if (!out) throw InputError(job_.stats_json.string(), "a disk that is full or cannot be written", "room for the statistics");
             file.commit();
@@ -167,8 +167,11 @@ private:
         for (const Aov aov : job.aov) {
             if (std::find(scene.film.aov.begin(), scene.film.aov.end(), aov) == scene.film.aov.end()) scene.film.aov.push_back(aov);
         }
-        if (job.max_depth > 0) scene.max_depth = job.max_depth;
-        if (!job.integrator.empty()) scene.integrator = job.integrator;
+        IntegratorDescription& integrator = scene.integrator;
+        if (job.max_depth > 0) integrator.max_depth = job.max_depth;
+        integrator.kind = job.integrator.value_or(integrator.kind);
+        integrator.accuracy = job.accuracy.value_or(integrator.accuracy);
+        integrator.explicit_grains = job.explicit_grains.value_or(integrator.explicit_grains);
         return scene;
     }
 
@@ -181,7 +184,7 @@ private:
         }
         const auto start = std::chrono::steady_clock::now();
         Progress& progress = console_.progress();
-        const std::shared_ptr<const World> world = builder_.build(frame, progress);
+        const std::shared_ptr<const World> world = builder_.build(frame, progress, job_.plan_only ? Precompute::never : Precompute::now);
         say_warnings();
         if (progress.cancelled()) {
             interrupted_ = true;
@@ -206,7 +209,8 @@ private:
 
         const Camera camera = make_camera(scene_, world->space);
         RenderOptions options = job_.options;
-        options.path.max_depth = scene_.max_depth;
+        options.path.max_depth = scene_.integrator.max_depth;
+        if (scene_.integrator.has_proxies()) options.path.explicit_grains = scene_.integrator.explicit_grains;
         if (job_.spp) options.spp = *job_.spp;
         else if (options.timeout > 0) options.spp = 1u << 30;
         if (job_.debug_sample) {
@@ -219,7 +223,8 @@ private:
         }
         Film film = make_film(job_, scene_.film);
         const std::filesystem::path checkpoint = frame_path(outputs_[0], frame, many) + ".checkpoint";
-        const uint64_t estimator = mix64(options.path.max_depth * uint64_t{4} + static_cast<uint64_t>(options.path.direct_light));
+        const uint64_t approximation = options.path.explicit_grains * uint64_t{4} + static_cast<uint64_t>(scene_.integrator.accuracy);
+        const uint64_t estimator = mix64(approximation ^ mix64(options.path.max_depth * uint64_t{4} + static_cast<uint64_t>(options.path.direct_light)));
         const CheckpointKey key{mix64(builder_.scene_hash() ^ estimator), options.seed};
         if (job_.resume && std::filesystem::exists(checkpoint)) read_checkpoint(checkpoint, film, key);
 

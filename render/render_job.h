@@ -21,7 +21,9 @@ struct RenderJob {
     std::filesystem::path scene;
     std::vector<std::string> outputs;       ///< empty: the scene's name with .exr
     std::optional<uint32_t> spp;
-    std::string integrator;                 ///< empty: the scene's
+    std::optional<IntegratorKind> integrator; ///< else the scene's, as the next two
+    std::optional<Accuracy> accuracy;
+    std::optional<uint32_t> explicit_grains;
     std::optional<FrameRange> frames;
     std::optional<std::pair<int, int>> size;
     std::optional<std::array<double, 4>> crop;    ///< x0, x1, y0, y1 in 0..1

@@ -18,6 +18,8 @@ std::filesystem::path from_environment(const char* variable)
     return value ? value : "";
 }
 
+std::filesystem::path file_of(uint64_t key, const std::filesystem::path& folder) { return folder / fmt::format("gsdf-{:016x}.bin", key); }
+
 } // namespace
 
 std::filesystem::path cache_folder()
@@ -43,12 +45,18 @@ uint64_t gsdf_key(const GsdfSource& source, uint64_t seed)
     return key;
 }
 
+bool is_gsdf_stored(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder)
+{
+    std::error_code none;
+    return !folder.empty() && std::filesystem::exists(file_of(gsdf_key(source, options.seed), folder), none);
+}
+
 FoundGsdf find_gsdf(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder, const Progress& progress)
 {
     FoundGsdf found;
     const uint64_t key = gsdf_key(source, options.seed);
     if (!folder.empty()) {
-        found.file = folder / fmt::format("gsdf-{:016x}.bin", key);
+        found.file = file_of(key, folder);
         std::error_code none;
         if (std::filesystem::exists(found.file, none)) {
             try {

@@ -29,6 +29,9 @@ std::filesystem::path cache_folder();
 /// Names what decides a GSDF: shape, what of the material matters, and seed.
 uint64_t gsdf_key(const GsdfSource& source, uint64_t seed);
 
+/// Whether `find_gsdf` would find it (by its file's name alone).
+bool is_gsdf_stored(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder);
+
 /// The GSDF from `folder` if one of at least the wanted quality is there, else made and kept there. A damaged or outdated
 /// file is made again. Without a folder, or when it cannot be written, it is made for this run only.
 FoundGsdf find_gsdf(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder, const Progress& progress = {});

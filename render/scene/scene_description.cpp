@@ -252,6 +252,18 @@ void read_grains(const JsonValue& json, SceneDescription& scene)
     object.done();
 }
 
+IntegratorDescription read_integrator(const JsonValue& json)
+{
+    JsonObject object = json.object();
+    IntegratorDescription integrator;
+    if (const auto kind = object.find("kind")) integrator.kind = static_cast<IntegratorKind>(kind->choice(integrator_names));
+    if (const auto accuracy = object.find("accuracy")) integrator.accuracy = static_cast<Accuracy>(accuracy->choice(accuracy_names));
+    if (const auto depth = object.find("max_depth")) integrator.max_depth = static_cast<uint32_t>(depth->integer(1, 1000000000));
+    if (const auto grains = object.find("explicit_grains")) integrator.explicit_grains = static_cast<uint32_t>(grains->integer(0, 1000000000));
+    object.done();
+    return integrator;
+}
+
 } // namespace
 
 SceneDescription read_scene(const JsonDocument& document, const std::filesystem::path& file)
@@ -274,14 +286,7 @@ SceneDescription read_scene(const JsonDocument& document, const std::filesystem:
         if (!medium->array().empty()) medium->fail("no medium", "this version renders grains and surfaces only");
     }
     if (const auto integrator = object.find("integrator")) {
-        JsonObject options = integrator->object();
-        if (const auto kind = options.find("kind")) {
-            const std::vector<std::string> kinds{"auto", "ept"};
-            scene.integrator = kinds[kind->choice(kinds)];
-        }
-        if (const auto accuracy = options.find("accuracy")) accuracy->choice({"reference", "high", "standard", "draft"});
-        if (const auto depth = options.find("max_depth")) scene.max_depth = static_cast<uint32_t>(depth->integer(1, 1000000000));
-        options.done();
+        scene.integrator = read_integrator(*integrator);
     }
     object.done();
     return scene;

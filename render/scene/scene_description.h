@@ -82,6 +82,23 @@ struct AssemblyDescription {
     std::string place;
 };
 
+enum class IntegratorKind : uint8_t { automatic, ept, ppt };
+inline const std::vector<std::string> integrator_names{"auto", "ept", "ppt"};
+
+/// How far approximations may go.
+enum class Accuracy : uint8_t { reference, high, standard, draft };
+inline const std::vector<std::string> accuracy_names{"reference", "high", "standard", "draft"};
+
+struct IntegratorDescription {
+    IntegratorKind kind = IntegratorKind::automatic;
+    Accuracy accuracy = Accuracy::standard;
+    uint32_t max_depth = 0;       ///< 0: never cut
+    uint32_t explicit_grains = 0; ///< ppt: how many grains of a path are traced as they are
+
+    bool has_proxies() const { return kind == IntegratorKind::ppt; }
+    const std::string& name() const { return integrator_names[static_cast<size_t>(kind)]; }
+};
+
 /// A scene file, read and checked, with paths made absolute; nothing it names has been opened yet.
 struct SceneDescription {
     std::filesystem::path file;
@@ -94,8 +111,7 @@ struct SceneDescription {
     double metres_per_unit = 1e-3;           ///< what the scene's unit of length is to the library's materials
     std::optional<AssemblyDescription> assembly;
     MixtureDescription mixture{ExplicitDescription{}, {}, {}}; ///< which grain type each sphere is
-    std::string integrator = "auto";
-    uint32_t max_depth = 0;
+    IntegratorDescription integrator;
 };
 
 /// Checks and takes over every key. Throws InputError naming file and JSON path.

@@ -1,13 +1,40 @@
 #include "render/scene/type_builder.h"
 
 #include "ingest/support/error.h"
+#include "render/gsdf/gsdf_cache.h"
 #include "render/scene/content_hash.h"
 
 #include <fmt/format.h>
 
+#include <fstream>
+#include <iterator>
+
 namespace scree {
 
-TypeBuilder::Shape TypeBuilder::make_shape(const GrainTypeDescription& type) const
+namespace {
+
+uint64_t hash_file(const std::filesystem::path& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
+    if (!file.is_open() || bytes.empty()) read_mesh(path); // knows what to say
+    return hash_bytes(bytes.data(), bytes.size(), 1);
+}
+
+uint64_t hash_shape(const GrainTypeDescription& type)
+{
+    return type.mesh ? hash_file(*type.mesh) : type.has_mesh() ? hash_shape(*type.library, type.shape) : 0;
+}
+
+} // namespace
+
+GsdfOptions gsdf_options(Accuracy accuracy)
+{
+    constexpr double error[] = {0.005, 0.01, 0.02, 0.05};
+    return {.error = error[static_cast<size_t>(accuracy)]};
+}
+
+std::shared_ptr<const Exemplar> TypeBuilder::make_exemplar(const GrainTypeDescription& type) const
 {
     const std::string place = type.mesh ? type.mesh->string() : type.place + "/shape";
     const TriangleMesh mesh = type.mesh ? read_mesh(*type.mesh) : make_grain_shape(*type.library, type.shape, place);
@@ -16,30 +43,81 @@ TypeBuilder::Shape TypeBuilder::make_shape(const GrainTypeDescription& type) con
         throw InputError(place, "an open or inconsistently oriented mesh", "a closed mesh, as the material of '" + type.name + "' is a dielectric",
                          "close it, or give the type an opaque material");
     }
-    return {std::move(exemplar), type.mesh ? hash_mesh(mesh, 1) : hash_shape(*type.library, type.shape)};
+    return exemplar;
 }
 
-uint64_t TypeBuilder::build(const std::vector<GrainTypeDescription>& types, const std::vector<uint8_t>& used, World& world,
-                            std::vector<PartReport>& parts, uint64_t hash)
+void TypeBuilder::add_exemplar(const GrainTypeDescription& type, Shape& shape, const TypeRequest& request) const
+{
+    const std::string part = "exemplar '" + type.name + "'";
+    if (!type.has_mesh()) {
+        request.parts.push_back({part, false, "its shape is the bounding sphere itself"});
+        return;
+    }
+    if (!has_exemplars()) {
+        request.parts.push_back({part, false, "no grain is traced as it is"});
+        return;
+    }
+    const Stopwatch watch;
+    if (!shape.exemplar) shape.exemplar = make_exemplar(type);
+    const std::string source = type.library ? fmt::format(" of the library's {}", type.library->name) : "";
+    request.parts.push_back({part, true, fmt::format("{} triangles{}", shape.exemplar->triangle_count(), source), watch.seconds(), shape.exemplar->bytes()});
+}
+
+void TypeBuilder::add_gsdf(const GrainTypeDescription& type, Shape& shape, const TypeRequest& request) const
+{
+    const std::string part = "gsdf '" + type.name + "'";
+    if (!integrator_.has_proxies()) {
+        request.parts.push_back({part, false, "the integrator has no proxies"});
+        return;
+    }
+    const GsdfOptions options = gsdf_options(integrator_.accuracy);
+    GsdfSource source{shape.hash, type.material, nullptr};
+    if (type.has_mesh()) {
+        source.exemplar = [&] {
+            if (!shape.exemplar) shape.exemplar = make_exemplar(type);
+            return shape.exemplar;
+        };
+    }
+    const Stopwatch watch;
+    std::string how = "made for an earlier frame";
+    if (!shape.gsdf && request.precompute == Precompute::never && !is_gsdf_stored(source, options, cache_folder())) {
+        request.parts.push_back({part, true, fmt::format("to be traced to an error of {:g} %; not in the cache", 100 * options.error)});
+        return;
+    }
+    if (!shape.gsdf) {
+        const FoundGsdf found = find_gsdf(source, options, cache_folder(), request.progress);
+        if (!found.remark.empty()) request.warnings.push_back(found.remark);
+        shape.gsdf = found.gsdf;
+        const GsdfQuality& quality = found.gsdf->data().quality;
+        how = fmt::format("{}, {:.2g} paths, error {:.2g} %", found.computed ? "traced" : "from the cache", static_cast<double>(quality.paths),
+                          100 * quality.density_error);
+        if (found.computed && quality.density_error > options.error) {
+            request.warnings.push_back(fmt::format("the scattering of '{}' is known to {:.2g} % and not to the {:g} % asked for", type.name,
+                                                   100 * quality.density_error, 100 * options.error));
+        }
+    }
+    request.parts.push_back({part, true, how, watch.seconds(), shape.gsdf->bytes()});
+}
+
+uint64_t TypeBuilder::build(const std::vector<GrainTypeDescription>& types, const std::vector<uint8_t>& used, const TypeRequest& request,
+                            World& world, uint64_t hash)
 {
     for (size_t i = 0; i < types.size(); ++i) {
         const GrainTypeDescription& type = types[i];
         GrainType made{type.name, type.material, nullptr};
         made.material.absorption *= static_cast<float>(world.space.world_length(1));
-        const std::string part = "exemplar '" + type.name + "'";
         if (!used[i]) {
-            parts.push_back({part, false, "no grain has this type"});
-        } else if (!type.has_mesh()) {
-            parts.push_back({part, false, "its shape is the bounding sphere itself"});
+            request.parts.push_back({"exemplar '" + type.name + "'", false, "no grain has this type"});
         } else {
+            const bool is_new = !shapes_.contains(type.name);
             Shape& shape = shapes_[type.name];
-            const Stopwatch watch;
-            if (!shape.exemplar) shape = make_shape(type);
-            made.exemplar = shape.exemplar;
+            if (is_new) shape.hash = hash_shape(type);
+            add_exemplar(type, shape, request);
+            add_gsdf(type, shape, request);
+            if (has_exemplars()) made.exemplar = shape.exemplar;
+            else shape.exemplar = nullptr; // was only needed to trace the GSDF
+            made.gsdf = shape.gsdf;
             hash = mix64(hash ^ shape.hash);
-            const std::string source = type.library ? fmt::format(" of the library's {}", type.library->name) : "";
-            parts.push_back({part, true, fmt::format("{} triangles{}", shape.exemplar->triangle_count(), source), watch.seconds(),
-                             shape.exemplar->bytes()});
         }
         world.types.push_back(std::move(made));
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "ingest/support/progress.h"
+#include "render/gsdf/gsdf_builder.h"
 #include "render/scene/part_report.h"
 #include "render/scene/scene_description.h"
 #include "render/scene/world.h"
@@ -12,24 +14,47 @@
 
 namespace scree {
 
-/// Makes the grain types of worlds; what frames share is made once, and only when a frame has a grain of the type.
+/// Whether what takes long is made, or only said to be needed (for `--plan`; such a world cannot be rendered).
+enum class Precompute : uint8_t { now, never };
+
+/// How types are to be made, and where to tell of it.
+struct TypeRequest {
+    Precompute precompute;
+    const Progress& progress;
+    std::vector<PartReport>& parts;
+    std::vector<std::string>& warnings;
+};
+
+/// The mean error of directional densities that an accuracy stands for.
+GsdfOptions gsdf_options(Accuracy accuracy);
+
+/// Makes the grain types of worlds: exemplars where an integrator traces grains as they are, GSDFs where it has proxies.
+/// What frames share is made once, and only when a frame has a grain of the type.
 class TypeBuilder {
 public:
-    explicit TypeBuilder(std::shared_ptr<const EmbreeDevice> device) : device_(std::move(device)) {}
+    TypeBuilder(std::shared_ptr<const EmbreeDevice> device, const IntegratorDescription& integrator)
+        : device_(std::move(device)), integrator_(integrator)
+    {
+    }
 
-    /// Adds every type to `world` (whose space is set), the exemplars of those used, and a report on each.
-    /// Returns `hash` with the shapes mixed in. Throws InputError.
-    uint64_t build(const std::vector<GrainTypeDescription>& types, const std::vector<uint8_t>& used, World& world,
-                   std::vector<PartReport>& parts, uint64_t hash);
+    /// Adds every type to `world` (whose space is set), what is needed of those used, and a report on each part.
+    /// Returns `hash` with the shapes mixed in. Throws InputError, or Cancelled.
+    uint64_t build(const std::vector<GrainTypeDescription>& types, const std::vector<uint8_t>& used, const TypeRequest& request,
+                   World& world, uint64_t hash);
 
 private:
     struct Shape {
-        std::shared_ptr<const Exemplar> exemplar;
-        uint64_t hash = 0; ///< of the user's mesh, or of what the library makes it from
+        std::shared_ptr<const Exemplar> exemplar; ///< null until it is needed, and for the sphere itself
+        std::shared_ptr<const Gsdf> gsdf;
+        uint64_t hash = 0; ///< of the user's file, or of what the library makes it from; 0: the sphere
     };
-    Shape make_shape(const GrainTypeDescription& type) const;
+    bool has_exemplars() const { return !integrator_.has_proxies() || integrator_.explicit_grains > 0; }
+    std::shared_ptr<const Exemplar> make_exemplar(const GrainTypeDescription& type) const;
+    void add_exemplar(const GrainTypeDescription& type, Shape& shape, const TypeRequest& request) const;
+    void add_gsdf(const GrainTypeDescription& type, Shape& shape, const TypeRequest& request) const;
 
     std::shared_ptr<const EmbreeDevice> device_;
+    IntegratorDescription integrator_;
     std::map<std::string, Shape> shapes_; ///< by grain type
 };
 

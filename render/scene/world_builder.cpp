@@ -95,21 +95,22 @@ struct Spheres {
 } // namespace
 
 struct WorldBuilder::Impl {
-    SceneDescription scene;
+    const SceneDescription scene;
     std::shared_ptr<EmbreeDevice> device = std::make_shared<EmbreeDevice>();
     std::optional<DumpSeries> series;
     std::optional<MixtureSeries> mixtures;
     std::optional<BuiltFill> fill;
-    TypeBuilder types{device};
+    TypeBuilder types{device, scene.integrator};
     std::vector<TriangleMesh> surfaces;
     std::map<size_t, std::shared_ptr<const EnvironmentMap>> maps; // by light
     std::vector<PartReport> parts;
     std::vector<std::string> frame_warnings;
     uint64_t hash = 0;
 
+    explicit Impl(SceneDescription s) : scene(std::move(s)) {}
     Spheres read_spheres(size_t frame, const Progress& progress);
-    GrainStore make_grains(Spheres spheres, World& world);
-    void make_fill(World& world);
+    GrainStore make_grains(Spheres spheres, const TypeRequest& request, World& world);
+    void make_fill(const TypeRequest& request, World& world);
     TriangleMesh read_surface(const SurfaceDescription& surface) const;
     void make_surfaces(World& world);
     LightSet make_lights(const World& world);
@@ -164,7 +165,7 @@ Spheres WorldBuilder::Impl::read_spheres(size_t number, const Progress& progress
     return spheres;
 }
 
-GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, World& world)
+GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, const TypeRequest& request, World& world)
 {
     const ParticleFrame& frame = spheres.frame;
     Bounds bounds; // grains of radius 0 are left out of the world, and so of its bounds
@@ -180,7 +181,7 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, World& world)
 
     std::vector<uint8_t> used(scene.types.size(), 0);
     for (size_t i = 0; i < frame.size(); ++i) used[spheres.types[i]] = 1;
-    hash = types.build(scene.types, used, world, parts, hash);
+    hash = types.build(scene.types, used, request, world, hash);
 
     GrainStore grains;
     uint64_t without_size = 0;
@@ -220,7 +221,7 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, World& world)
     return grains;
 }
 
-void WorldBuilder::Impl::make_fill(World& world)
+void WorldBuilder::Impl::make_fill(const TypeRequest& request, World& world)
 {
     if (!fill) fill = build_fill(scene);
     parts.insert(parts.end(), fill->parts.begin(), fill->parts.end());
@@ -229,7 +230,7 @@ void WorldBuilder::Impl::make_fill(World& world)
     set_domain(spheres.domain().bounds(), world);
     world.fill = std::make_shared<GrainFill>(fill->fill, fill->mixture, world.space);
     const std::vector<uint8_t> any(scene.types.size(), 1); // any type may be met
-    hash = types.build(scene.types, any, world, parts, hash);
+    hash = types.build(scene.types, any, request, world, hash);
     hash = hash_mesh(spheres.domain().mesh(), hash);
     hash = hash_vector(spheres.tile().radius, hash_vector(spheres.tile().type, hash));
     for (const auto& variant : spheres.tile().variants) hash = hash_vector(variant, hash);
@@ -315,9 +316,8 @@ LightSet WorldBuilder::Impl::make_lights(const World& world)
     return LightSet(std::move(lights), std::sqrt(radius2));
 }
 
-WorldBuilder::WorldBuilder(SceneDescription scene) : impl_(std::make_unique<Impl>())
+WorldBuilder::WorldBuilder(SceneDescription scene) : impl_(std::make_unique<Impl>(std::move(scene)))
 {
-    impl_->scene = std::move(scene);
     if (impl_->scene.types.size() > 256) {
         throw InputError(impl_->scene.file.string() + ": /grains/types", fmt::format("{} grain types", impl_->scene.types.size()),
                          "at most 256");
@@ -348,20 +348,21 @@ std::vector<std::string> WorldBuilder::warnings() const
     return all;
 }
 
-std::shared_ptr<const World> WorldBuilder::build(size_t frame, const Progress& progress)
+std::shared_ptr<const World> WorldBuilder::build(size_t frame, const Progress& progress, Precompute precompute)
 {
     impl_->parts.clear();
     impl_->frame_warnings.clear();
     impl_->hash = hash_bytes(impl_->scene.canonical.data(), impl_->scene.canonical.size(), frame);
     auto world = std::make_shared<World>();
+    const TypeRequest request{precompute, progress, impl_->parts, impl_->frame_warnings};
     if (impl_->scene.assembly && impl_->scene.assembly->fill) {
-        impl_->make_fill(*world);
+        impl_->make_fill(request, *world);
     } else if (impl_->scene.assembly) {
         const Stopwatch watch;
         Spheres spheres = impl_->read_spheres(frame, progress);
         const uint64_t read = spheres.frame.size();
         const double read_seconds = watch.seconds();
-        world->grains = impl_->make_grains(std::move(spheres), *world);
+        world->grains = impl_->make_grains(std::move(spheres), request, *world);
         impl_->parts.push_back({"grains", true, fmt::format("{} of {} spheres read", world->grains.size(), read), read_seconds,
                                 world->grains.bytes()});
     } else {

@@ -3,6 +3,7 @@
 #include "ingest/dump_series.h"
 #include "render/scene/part_report.h"
 #include "render/scene/scene_description.h"
+#include "render/scene/type_builder.h"
 #include "render/scene/world.h"
 
 #include <memory>
@@ -27,8 +28,8 @@ public:
     /// Remarks on the input that are no errors (a truncated last frame, ...).
     std::vector<std::string> warnings() const;
 
-    /// Reads frame `frame` and everything it needs. Throws InputError.
-    std::shared_ptr<const World> build(size_t frame, const Progress& progress = {});
+    /// Reads frame `frame` and everything it needs. Throws InputError, or Cancelled from within what is precomputed.
+    std::shared_ptr<const World> build(size_t frame, const Progress& progress = {}, Precompute precompute = Precompute::now);
     /// The parts of the last world built, in order.
     const std::vector<PartReport>& parts() const;
     /// Hash of the scene's text and of what the last world was built from.

@@ -41,8 +41,9 @@ TEST(SceneDescription, HasDefaults)
     EXPECT_TRUE(scene.surfaces.empty());
     EXPECT_TRUE(scene.types.empty());
     EXPECT_FALSE(scene.assembly);
-    EXPECT_EQ(scene.integrator, "auto");
-    EXPECT_EQ(scene.max_depth, 0u);
+    EXPECT_EQ(scene.integrator.kind, IntegratorKind::automatic);
+    EXPECT_EQ(scene.integrator.max_depth, 0u);
+    EXPECT_EQ(scene.integrator.accuracy, Accuracy::standard);
 }
 
 TEST(SceneDescription, ReadsCameras)
@@ -224,9 +225,11 @@ TEST(SceneDescription, UnitsConvertTheLibrarysAbsorptionOnly)
 TEST(SceneDescription, ReadsIntegrators)
 {
     const SceneDescription scene = read_with(R"("medium": [], "integrator": {"kind": "ept", "accuracy": "reference", "max_depth": 7})");
-    EXPECT_EQ(scene.integrator, "ept");
-    EXPECT_EQ(scene.max_depth, 7u);
-    EXPECT_EQ(read_with(R"("integrator": {})").integrator, "auto");
+    EXPECT_EQ(scene.integrator.kind, IntegratorKind::ept);
+    EXPECT_EQ(scene.integrator.accuracy, Accuracy::reference);
+    EXPECT_EQ(scene.integrator.max_depth, 7u);
+    EXPECT_EQ(read_with(R"("integrator": {})").integrator.kind, IntegratorKind::automatic);
+    EXPECT_EQ(read_with(R"("integrator": {"kind": "ppt", "explicit_grains": 2})").integrator.explicit_grains, 2u);
 }
 
 TEST(SceneDescription, TakesNullForAbsent)
@@ -351,7 +354,8 @@ const std::vector<Wrong> wrong_scenes{
     {R"("grains": {"types": {)" + clay + R"(}, "assembly": {"spheres": []}, "mixture": {"kind": "perlim"}})", "/grains/mixture/kind", "\"perlim\"", "perlin", "did you mean 'perlin'?"},
     {R"("grains": {"types": {)" + clay + R"(}, "assembly": {"spheres": []}, "mixture": "cly"})", "/grains/mixture", "\"cly\"", "clay", "did you mean 'clay'?"},
     {R"("medium": [{"mesh": "slab.off"}])", "/medium", "slab.off", "no medium", "grains and surfaces only"},
-    {R"("integrator": {"kind": "ppt"})", "/integrator/kind", "\"ppt\"", "auto, ept", "did you mean 'ept'?"},
+    {R"("integrator": {"kind": "epd"})", "/integrator/kind", "\"epd\"", "auto, ept, ppt", "did you mean 'ept'?"},
+    {R"("integrator": {"explicit_grains": -1})", "/integrator/explicit_grains", "-1", "0..", ""},
     {R"("integrator": {"accuracy": "best"})", "/integrator/accuracy", "\"best\"", "reference, high, standard, draft", ""},
     {R"("integrator": {"max_depth": 0})", "/integrator/max_depth", "0", "1..", ""},
     {R"("integrator": "ept")", "/integrator", "\"ept\"", "an object", ""},

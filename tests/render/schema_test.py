@@ -47,7 +47,7 @@ GOOD_CHANGES = [
     ((), {}),
     (("$schema",), "scene.schema.json"),
     (("film",), REMOVE), (("lights",), REMOVE), (("lights",), []), (("surfaces",), REMOVE), (("grains",), REMOVE), (("medium",), REMOVE),
-    (("integrator",), REMOVE), (("integrator",), {}), (("integrator", "kind"), "ept"), (("integrator", "max_depth"), 1),
+    (("integrator",), REMOVE), (("integrator",), {}), (("integrator", "kind"), "ept"), (("integrator", "kind"), "ppt"), (("integrator", "explicit_grains"), 1), (("integrator", "max_depth"), 1),
     (("camera",), {"origin": [0, 1, 0], "target": [0, 0, 0]}),
     (("camera",), {"kind": "orthographic", "origin": [0, 1, 0], "target": [0, 0, 0], "width": 4, "aperture": 1, "focus": 2}),
     (("camera", "fov"), 179.5), (("camera", "fov"), 1e-3),
@@ -118,7 +118,7 @@ BAD_CHANGES = [
     (("grains", "mixture"), {}), (("grains", "mixture", "kind"), "perlin"), (("grains", "mixture", "kind"), "marble"),
     (("grains", "mixture"), {"kind": "random", "types": []}), (("grains", "mixture"), 3), (("grains", "mixture", "seed"), 1), (("grains", "mixture"), {"file": ""}),
     (("grains", "seed"), 1),
-    (("medium",), [{"mesh": "slab.off"}]), (("medium",), {}), (("integrator",), "ept"), (("integrator", "kind"), "ppt"), (("integrator", "accuracy"), "best"),
+    (("medium",), [{"mesh": "slab.off"}]), (("medium",), {}), (("integrator",), "ept"), (("integrator", "kind"), "epd"), (("integrator", "explicit_grains"), -1), (("integrator", "accuracy"), "best"),
     (("integrator", "max_depth"), 0), (("integrator", "max_depth"), 1.5), (("integrator", "depth"), 3), (("$schema",), 3), (("lihgts",), []),
 ]
 
