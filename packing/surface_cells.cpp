@@ -70,12 +70,14 @@ struct SurfaceCells::Plate {
         }
     }
 
-    /// A lower bound, scaled, of the distance of a place from the triangle but for rounding: below 2^-20 of `reach` and of the place's
-    /// distance from the middle.
-    float beyond(const V3d& place, double scale) const
+    /// A lower bound of the distance, by the edges, of a place from the middle; scaled.
+    double beyond(const V3d& place) const
     {
-        const V3f q((place - middle) * scale);
-        return std::max({side[0].dot(q) - reach[0], side[1].dot(q) - reach[1], side[2].dot(q) - reach[2]});
+        const V3f q(place);
+        const float most = std::max({side[0].dot(q) - reach[0], side[1].dot(q) - reach[1], side[2].dot(q) - reach[2]});
+        // Let u = 2^-24: the vectors' lengths, q, the product and the difference are off by less than 8 u of |q| in all, as what is above zero has a
+        // smaller reach than |q|.
+        return most - 0x1p-19 * (std::abs(place.x) + std::abs(place.y) + std::abs(place.z));
     }
 };
 
@@ -172,7 +174,7 @@ std::unique_ptr<SurfaceCells::Cell> SurfaceCells::make(uint64_t key) const
     size_t first = 0;
     for (size_t k = 0; k < faces.size(); ++k) {
         const Plate& plate = plates_[faces[k]];
-        least[k] = lower_bound(plate, m, std::abs((plate.middle - m).dot(plate.normal)) * scale_);
+        least[k] = lower_bound(plate, m, std::abs((plate.middle - m).dot(plate.normal)) * scale_ - error_);
         if (least[k] >= lowest) continue;
         lowest = least[k];
         first = k;
@@ -206,11 +208,9 @@ std::unique_ptr<SurfaceCells::Cell> SurfaceCells::make(uint64_t key) const
     return cell;
 }
 
-double SurfaceCells::lower_bound(const Plate& plate, const V3d& place, double height) const
+double SurfaceCells::lower_bound(const Plate& plate, const V3d& place, double least) const
 {
-    const V3d to = (place - plate.middle) * scale_;
-    const double rounding = error_ + 0x1p-19 * (std::abs(to.x) + std::abs(to.y) + std::abs(to.z));
-    return std::max(height, double{plate.beyond(place, scale_)}) - rounding;
+    return std::max(least, plate.beyond((place - plate.middle) * scale_));
 }
 
 bool SurfaceCells::contains_sphere(const V3d& centre, double radius) const
@@ -260,24 +260,32 @@ SurfaceCells::Answer SurfaceCells::ask(const Cell& cell, const V3d& offset, cons
     // Triangles one after the other, by ever better bounds, the likely nearest first.
     const auto face = [&](size_t k) { return cell.planes[k / lanes].face[k % lanes]; };
     std::array<double, most_triangles> least;
-    size_t first = cell.count;
+    std::array<bool, most_triangles> by_edges;
+    size_t first = 0;
     for (size_t k = 0; k < cell.count; ++k) {
         least[k] = std::abs(double{height[k]}) - error_;
-        if (least[k] < r) least[k] = lower_bound(plates_[face(k)], centre, std::abs(double{height[k]}));
-        if (first == cell.count || least[k] < least[first]) first = k;
+        by_edges[k] = least[k] < r;
+        if (by_edges[k]) least[k] = lower_bound(plates_[face(k)], centre, least[k]);
+        if (least[k] < least[first]) first = k;
     }
     double nearest = std::numeric_limits<double>::infinity();
-    bool before = false, behind = false;
     for (size_t i = 0; i <= cell.count; ++i) {
         const size_t k = i == 0 ? first : i - 1;
-        if (i > 0 && (k == first || least[k] > std::max(nearest, r))) continue;
-        if (i > 0 && lower_bound(plates_[face(k)], centre, std::abs(double{height[k]})) > std::max(nearest, r)) continue;
+        if (i > 0) {
+            if (k == first || least[k] > nearest) continue;
+            if (!by_edges[k]) least[k] = lower_bound(plates_[face(k)], centre, least[k]);
+            if (least[k] > nearest) continue;
+        }
         const DistanceBounds d = bound_distance(centre, corners(face(k)), scale_);
         if (d.hi < r) return Answer::no;
         if (d.lo < r) return Answer::unknown;
+        least[k] = d.lo;
         nearest = std::min(nearest, d.hi);
-        if (d.lo > nearest) continue;
-        // It may be the nearest.
+    }
+    // It is clear of all. Those that may be the nearest tell the side.
+    bool before = false, behind = false;
+    for (size_t k = 0; k < cell.count; ++k) {
+        if (least[k] > nearest) continue;
         before = before || !(height[k] < -error_);
         behind = behind || !(height[k] > error_);
     }

@@ -38,8 +38,8 @@ private:
     std::unique_ptr<Cell> make(uint64_t key) const;
     Imath::V3d middle(uint64_t key) const;
     Corners corners(uint32_t face) const;
-    /// Of the distance of the place from the triangle, scaled; height: above its plane, off by less than error_.
-    double lower_bound(const Plate& plate, const Imath::V3d& place, double height) const;
+    /// Of the distance of the place from the triangle, scaled; least: another one.
+    double lower_bound(const Plate& plate, const Imath::V3d& place, double least) const;
     Answer ask(const Cell& cell, const Imath::V3d& offset, const Imath::V3d& centre, double radius) const;
 
     const Domain& domain_;
