@@ -13,13 +13,14 @@
 namespace scree {
 
 using Imath::V3d;
+using Imath::V3f;
 
 namespace {
 
 constexpr uint64_t slot_count = uint64_t{1} << 19;
 constexpr uint64_t most_probes = 16;
 constexpr uint64_t most_bytes = uint64_t{96} << 20;
-constexpr size_t most_triangles = 64; // of a cell: where more are near, the tree is faster than the list
+constexpr size_t most_triangles = 128; // of a cell: where more are near, the tree is faster than the list
 constexpr int axis_bits = 20;         // of a cell's number along an axis
 constexpr size_t lanes = 8;
 
@@ -30,13 +31,10 @@ double largest_component(const V3d& v)
 
 using Lanes = std::array<float, lanes>;
 
-/// Triangles in short; lengths are scaled, places from the cell's middle.
-struct Triangles {
-    /// Their planes, with unit normals n pointing out of the solid: a place q is n.q - offset above one. A triangle whose
-    /// plane is not known well has a zero normal and offset.
+/// The planes of triangles, scaled, with unit normals n pointing out of the solid: a place q from the cell's middle is n.q - offset
+/// above one. A triangle whose plane is not known well has a zero normal and offset.
+struct Planes {
     Lanes x, y, z, offset;
-    /// Balls around them; infinite ones around large triangles.
-    Lanes middle_x, middle_y, middle_z, radius;
     std::array<uint32_t, lanes> face;
 
     Lanes heights(float qx, float qy, float qz) const
@@ -45,25 +43,50 @@ struct Triangles {
         for (size_t k = 0; k < lanes; ++k) h[k] = x[k] * qx + y[k] * qy + z[k] * qz - offset[k];
         return h;
     }
-    /// How far the triangles are at least, by their balls.
-    Lanes clearance(float qx, float qy, float qz) const
-    {
-        Lanes d;
-        for (size_t k = 0; k < lanes; ++k) {
-            const float dx = qx - middle_x[k], dy = qy - middle_y[k], dz = qz - middle_z[k];
-            d[k] = std::sqrt(dx * dx + dy * dy + dz * dz) - radius[k];
-        }
-        return d;
-    }
 };
 
 } // namespace
+
+/// A triangle in short: its plane, and how far a place is beyond its edges.
+struct SurfaceCells::Plate {
+    V3d middle, normal;      ///< scene units; unit normal out of the solid, zero where it is not known well
+    std::array<V3f, 3> side; ///< nearly unit vectors
+    std::array<float, 3> reach{}; ///< scaled: of the triangle from its middle along each side's vector, at most
+
+    Plate(const Corners& corners, double scale, double half) : middle(corners[0] / 3 + corners[1] / 3 + corners[2] / 3)
+    {
+        std::array<V3d, 3> c;
+        for (size_t k = 0; k < 3; ++k) c[k] = (corners[k] - middle) * scale;
+        const V3d ab = (corners[1] - corners[0]) * scale, ac = (corners[2] - corners[0]) * scale, cross = ab.cross(ac);
+        const double length = cross.length(), radius = std::max({c[0].length(), c[1].length(), c[2].length()});
+        // Each component of the cross product is off by less than 4 * 2^-53 of the edges' product, which turns the normal by no more than this.
+        const double turn = 8 * 0x1p-53 * ab.length() * ac.length() / length;
+        normal = length > 0x1p-900 && turn * (8 * half + radius) <= 0x1p-26 * half ? cross / length : V3d(0);
+        for (size_t k = 0; k < 3; ++k) {
+            // Whatever vector this is, the triangle reaches no farther along it.
+            side[k] = V3f((c[(k + 1) % 3] - c[k]).cross(normal).normalized());
+            const V3d s(side[k]);
+            reach[k] = static_cast<float>(std::max({s.dot(c[0]), s.dot(c[1]), s.dot(c[2])}));
+        }
+    }
+
+    /// A lower bound of the distance, by the edges, of a place from the middle; scaled.
+    double beyond(const V3d& place) const
+    {
+        const V3f q(place);
+        const float most = std::max({side[0].dot(q) - reach[0], side[1].dot(q) - reach[1], side[2].dot(q) - reach[2]});
+        // Let u = 2^-24: the vectors' lengths, q, the product and the difference are off by less than 8 u of |q| in all, as what is above zero has a
+        // smaller reach than |q|.
+        return most - 0x1p-19 * (std::abs(place.x) + std::abs(place.y) + std::abs(place.z));
+    }
+};
 
 struct SurfaceCells::Cell {
     enum class Kind : uint8_t { outside, inside, near, crowded };
     uint64_t key = 0;
     Kind kind = Kind::crowded;
-    std::vector<Triangles> triangles; // all that may be the nearest to a place in the cell, or within the largest radius of it; the last repeats
+    uint32_t count = 0;
+    std::vector<Planes> planes; // of all triangles that may be the nearest to a place in the cell, or within the largest radius of it; the last repeats
 };
 
 SurfaceCells::SurfaceCells(const Domain& domain, double largest) : domain_(domain), largest_(largest)
@@ -74,15 +97,17 @@ SurfaceCells::SurfaceCells(const Domain& domain, double largest) : domain_(domai
     // About as large as the triangles are, so that few are near; and larger than the balls.
     const double edge = std::max(longest / std::max(64.0, std::sqrt(faces)), 4 * largest);
     // Beyond what follows is written for, there are no cells.
-    if (!(largest > 0) || !(longest > 0x1p-900) || !(longest < 0x1p900) || !(edge < longest) || !(longest / edge < (1 << axis_bits) - 2)) return;
+    const double farthest = std::max(largest_component(domain.bounds().min), largest_component(domain.bounds().max));
+    if (!(largest > 0) || !(longest > 0x1p-900) || !(longest < 0x1p900) || !(edge < longest) || !(longest / edge < (1 << axis_bits) - 2) || !(farthest < 0x1p20 * edge)) return;
     scale_ = std::ldexp(1.0, -std::ilogb(longest) - 1);
     edge_ = edge;
-    const double farthest = std::max(largest_component(domain.bounds().min), largest_component(domain.bounds().max));
-    half_ = std::sqrt(0.75) * edge_ * (1 + 0x1p-20) + 0x1p-48 * farthest;
+    half_ = std::sqrt(0.75) * edge_ * (1 + 0x1p-20);
     // See `make`.
     error_ = static_cast<float>(half_ * scale_ * 0x1p-18);
     slots_ = std::make_unique<std::atomic<const Cell*>[]>(slot_count);
-    bytes_ = slot_count * sizeof(slots_[0]);
+    plates_.reserve(domain.mesh().triangles.size());
+    for (uint32_t face = 0; face < domain.mesh().triangles.size(); ++face) plates_.emplace_back(corners(face), scale_, half_ * scale_);
+    bytes_ = slot_count * sizeof(slots_[0]) + plates_.size() * sizeof(Plate);
 }
 
 SurfaceCells::~SurfaceCells()
@@ -103,6 +128,13 @@ V3d SurfaceCells::middle(uint64_t key) const
     return domain_.bounds().min + (index + V3d(0.5)) * edge_;
 }
 
+Corners SurfaceCells::corners(uint32_t face) const
+{
+    const TriangleMesh& mesh = domain_.mesh();
+    const auto& [a, b, c] = mesh.triangles[face];
+    return {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
+}
+
 const SurfaceCells::Cell* SurfaceCells::find(uint64_t key) const
 {
     uint64_t slot = mix64(key) % slot_count;
@@ -111,7 +143,7 @@ const SurfaceCells::Cell* SurfaceCells::find(uint64_t key) const
         if (!cell) {
             if (bytes_.load(std::memory_order_relaxed) > most_bytes) return nullptr;
             std::unique_ptr<Cell> made = make(key);
-            const uint64_t size = sizeof(Cell) + made->triangles.capacity() * sizeof(Triangles);
+            const uint64_t size = sizeof(Cell) + made->planes.capacity() * sizeof(Planes);
             if (slots_[slot].compare_exchange_strong(cell, made.get(), std::memory_order_acq_rel)) {
                 bytes_.fetch_add(size, std::memory_order_relaxed);
                 return made.release();
@@ -128,73 +160,57 @@ std::unique_ptr<SurfaceCells::Cell> SurfaceCells::make(uint64_t key) const
     auto cell = std::make_unique<Cell>();
     cell->key = key;
     const V3d m = middle(key);
-    const SurfaceTree& surface = domain_.surface();
-    const TriangleMesh& mesh = domain_.mesh();
-    const auto corners = [&](uint32_t face) {
-        const auto& t = mesh.triangles[face];
-        return Corners{mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
-    };
-
+    const double half = half_ * scale_;
     // A triangle that matters is within half + largest of the middle, or the nearest of one such is within half of it.
-    static thread_local std::vector<uint32_t> faces;
-    static thread_local std::vector<DistanceBounds> bounds;
-    faces.clear();
-    bounds.clear();
-    surface.collect_near(m, (3 * half_ + largest_) * (1 + 0x1p-40), faces);
-    DistanceBounds nearest{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-    for (const uint32_t face : faces) {
-        bounds.push_back(bound_distance(m, corners(face), scale_));
-        nearest.lo = std::min(nearest.lo, bounds.back().lo);
-        nearest.hi = std::min(nearest.hi, bounds.back().hi);
+    std::vector<uint32_t> faces;
+    domain_.surface().collect_near(m, (3 * half_ + largest_) * (1 + 0x1p-40), faces);
+
+    // Let u = 2^-24 and H be half; largest < 0.3 H, so all are within 3.4 H, and |q| <= H. Places are off by less than 2^-4 u H, as the
+    // bounds are within 2^20 edges of the origin. Heights are off by u H each for the rounding of normal and q, 3 u H for
+    // that of the product, 4.4 u H for the difference, 3.4 u H for the offset's rounding, and u H for the normal's own
+    // error: below 15 u H. `error_` is 64 u H.
+    std::vector<double> least(faces.size());
+    double lowest = std::numeric_limits<double>::infinity();
+    size_t first = 0;
+    for (size_t k = 0; k < faces.size(); ++k) {
+        const Plate& plate = plates_[faces[k]];
+        least[k] = lower_bound(plate, m, std::abs((plate.middle - m).dot(plate.normal)) * scale_ - error_);
+        if (least[k] >= lowest) continue;
+        lowest = least[k];
+        first = k;
     }
-    const double half = half_ * scale_, largest = largest_ * scale_;
-    if (nearest.lo > (half + largest) * (1 + 0x1p-40)) {
-        cell->kind = surface.encloses(m) ? Cell::Kind::inside : Cell::Kind::outside;
+    if (lowest > half + largest_ * scale_) {
+        cell->kind = domain_.surface().encloses(m) ? Cell::Kind::inside : Cell::Kind::outside;
         return cell;
     }
-    const double reach = std::max(nearest.hi + 2 * half, half + largest) * (1 + 0x1p-40);
+    const double nearest = bound_distance(m, corners(faces[first]), scale_).hi;
+    const double reach = std::max(nearest + 2 * half, half + largest_ * scale_) * (1 + 0x1p-40);
     size_t count = 0;
     for (size_t k = 0; k < faces.size(); ++k) {
-        if (bounds[k].lo <= reach) faces[count++] = faces[k];
+        if (least[k] <= reach) faces[count++] = faces[k];
     }
     if (count > most_triangles) return cell;
 
-    // Let u = 2^-24 and H be half; largest < 0.3 H, so reach < 3.4 H, offset < 3.4 H, and |q| <= H. Heights are off by u H each for the
-    // rounding of normal and q, 3 u H for that of the product, 4.4 u H for the difference, 3.4 u H for the offset's
-    // rounding, and 3 u H at most for the normal's own error: below 16 u H. Clearances: 14 u H for the rounding of q, middle
-    // and their difference, which is below 7 H, 18 u H for square and root, 13 u H for the radius and the last
-    // difference: below 46 u H. `error_` is 64 u H.
-    const double unit = 0x1p-24;
     cell->kind = Cell::Kind::near;
-    cell->triangles.resize((count + lanes - 1) / lanes);
-    for (size_t k = 0; k < cell->triangles.size() * lanes; ++k) {
-        const uint32_t face = faces[std::min(k, count - 1)];
-        const Corners c = corners(face);
-        const V3d a = (c[0] - m) * scale_, b = (c[1] - m) * scale_, d = (c[2] - m) * scale_;
-        const V3d ab = b - a, ad = d - a, cross = ab.cross(ad);
-        const double length = cross.length(), span = std::max(ab.length(), ad.length());
-        const double farthest = std::max({largest_component(a), largest_component(b), largest_component(d), span});
-        // Edges are off by 4 * 2^-53 of the farthest in length, so the cross product by less than 16 * 2^-53 farthest span; what is
-        // said of the offset rests on a corner, 4 * 2^-53 farthest and the normal's error times its distance off.
-        Triangles& packed = cell->triangles[k / lanes];
+    cell->count = static_cast<uint32_t>(count);
+    cell->planes.resize((count + lanes - 1) / lanes);
+    for (size_t k = 0; k < cell->planes.size() * lanes; ++k) {
+        Planes& planes = cell->planes[k / lanes];
         const size_t lane = k % lanes;
-        packed.face[lane] = face;
-        const double turn = 16 * 0x1p-53 * farthest * span / length;
-        const bool known = length > 0x1p-900 && turn <= unit / 4 && (turn + 16 * 0x1p-53) * farthest * 2 <= unit * half;
-        const V3d n = known ? cross / length : V3d(0);
-        packed.x[lane] = static_cast<float>(n.x);
-        packed.y[lane] = static_cast<float>(n.y);
-        packed.z[lane] = static_cast<float>(n.z);
-        packed.offset[lane] = known ? static_cast<float>(n.dot(a)) : 0;
-        const V3d middle = (a + b + d) / 3;
-        const double radius = std::max({(a - middle).length(), (b - middle).length(), (d - middle).length()});
-        const bool is_small = middle.length() + radius < 6 * half;
-        packed.middle_x[lane] = is_small ? static_cast<float>(middle.x) : 0;
-        packed.middle_y[lane] = is_small ? static_cast<float>(middle.y) : 0;
-        packed.middle_z[lane] = is_small ? static_cast<float>(middle.z) : 0;
-        packed.radius[lane] = is_small ? static_cast<float>(radius) : std::numeric_limits<float>::infinity();
+        const uint32_t face = faces[std::min(k, count - 1)];
+        const V3d n = plates_[face].normal;
+        planes.x[lane] = static_cast<float>(n.x);
+        planes.y[lane] = static_cast<float>(n.y);
+        planes.z[lane] = static_cast<float>(n.z);
+        planes.offset[lane] = static_cast<float>(n.dot(plates_[face].middle - m) * scale_);
+        planes.face[lane] = face;
     }
     return cell;
+}
+
+double SurfaceCells::lower_bound(const Plate& plate, const V3d& place, double least) const
+{
+    return std::max(least, plate.beyond((place - plate.middle) * scale_));
 }
 
 bool SurfaceCells::contains_sphere(const V3d& centre, double radius) const
@@ -224,22 +240,16 @@ SurfaceCells::Answer SurfaceCells::ask(const Cell& cell, const V3d& offset, cons
     Lanes lows, highs;
     lows.fill(std::numeric_limits<float>::infinity());
     highs.fill(-std::numeric_limits<float>::infinity());
-    std::array<float, most_triangles> height, least;
-    for (size_t g = 0; g < cell.triangles.size(); ++g) {
-        const Lanes h = cell.triangles[g].heights(qx, qy, qz), d = cell.triangles[g].clearance(qx, qy, qz);
+    std::array<float, most_triangles> height;
+    for (size_t g = 0; g < cell.planes.size(); ++g) {
+        const Lanes h = cell.planes[g].heights(qx, qy, qz);
         for (size_t k = 0; k < lanes; ++k) {
             lows[k] = h[k] < lows[k] ? h[k] : lows[k];
             highs[k] = h[k] > highs[k] ? h[k] : highs[k];
-            const float away = std::abs(h[k]);
             height[g * lanes + k] = h[k];
-            least[g * lanes + k] = (d[k] > away ? d[k] : away) - error_;
         }
     }
-    float lowest = lows[0], highest = highs[0];
-    for (size_t k = 1; k < lanes; ++k) {
-        lowest = std::min(lowest, lows[k]);
-        highest = std::max(highest, highs[k]);
-    }
+    const float lowest = *std::min_element(lows.begin(), lows.end()), highest = *std::max_element(highs.begin(), highs.end());
     // The triangles that meet where the surface is nearest are among these. Where the centre is behind all of them it is inside, and
     // where it is before all of them outside: an average of their normals tells (Baerentzen and Aanaes 2005). And no
     // triangle is nearer than its plane.
@@ -247,27 +257,35 @@ SurfaceCells::Answer SurfaceCells::ask(const Cell& cell, const V3d& offset, cons
     const double r = radius * scale_;
     if (-double{highest} >= r + error_) return Answer::yes;
 
-    const size_t count = cell.triangles.size() * lanes;
-    const TriangleMesh& mesh = domain_.mesh();
+    // Triangles one after the other, by ever better bounds, the likely nearest first.
+    const auto face = [&](size_t k) { return cell.planes[k / lanes].face[k % lanes]; };
+    std::array<double, most_triangles> least;
+    std::array<bool, most_triangles> by_edges;
+    size_t first = 0;
+    for (size_t k = 0; k < cell.count; ++k) {
+        least[k] = std::abs(double{height[k]}) - error_;
+        by_edges[k] = least[k] < r;
+        if (by_edges[k]) least[k] = lower_bound(plates_[face(k)], centre, least[k]);
+        if (least[k] < least[first]) first = k;
+    }
     double nearest = std::numeric_limits<double>::infinity();
-    const auto look_at = [&](size_t k) {
-        const auto& t = mesh.triangles[cell.triangles[k / lanes].face[k % lanes]];
-        return bound_distance(centre, {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]}, scale_);
-    };
-    // The likely nearest first: with its distance known, most others need not be looked at.
-    const auto first = static_cast<size_t>(std::min_element(least.begin(), least.begin() + static_cast<std::ptrdiff_t>(count)) - least.begin());
-    bool before = false, behind = false;
-    for (size_t i = 0; i <= count; ++i) {
+    for (size_t i = 0; i <= cell.count; ++i) {
         const size_t k = i == 0 ? first : i - 1;
-        if (least[k] >= r && least[k] > nearest) continue;
-        if (i == 0 || k != first) {
-            const DistanceBounds d = look_at(k);
-            if (d.hi < r) return Answer::no;
-            if (d.lo < r) return Answer::unknown;
-            nearest = std::min(nearest, d.hi);
-            if (d.lo > nearest) continue;
+        if (i > 0) {
+            if (k == first || least[k] > nearest) continue;
+            if (!by_edges[k]) least[k] = lower_bound(plates_[face(k)], centre, least[k]);
+            if (least[k] > nearest) continue;
         }
-        // It may be the nearest.
+        const DistanceBounds d = bound_distance(centre, corners(face(k)), scale_);
+        if (d.hi < r) return Answer::no;
+        if (d.lo < r) return Answer::unknown;
+        least[k] = d.lo;
+        nearest = std::min(nearest, d.hi);
+    }
+    // It is clear of all. Those that may be the nearest tell the side.
+    bool before = false, behind = false;
+    for (size_t k = 0; k < cell.count; ++k) {
+        if (least[k] > nearest) continue;
         before = before || !(height[k] < -error_);
         behind = behind || !(height[k] > error_);
     }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "packing/domain.h"
+#include "packing/exact_distance.h"
 
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace scree {
 
@@ -29,11 +31,15 @@ public:
 
 private:
     struct Cell;
+    struct Plate;
     enum class Answer : uint8_t { no, yes, unknown };
 
     const Cell* find(uint64_t key) const;
     std::unique_ptr<Cell> make(uint64_t key) const;
     Imath::V3d middle(uint64_t key) const;
+    Corners corners(uint32_t face) const;
+    /// Of the distance of the place from the triangle, scaled; least: another one.
+    double lower_bound(const Plate& plate, const Imath::V3d& place, double least) const;
     Answer ask(const Cell& cell, const Imath::V3d& offset, const Imath::V3d& centre, double radius) const;
 
     const Domain& domain_;
@@ -42,6 +48,7 @@ private:
     double half_ = 0;        // of a cell's diagonal, and a little more
     double largest_;
     float error_ = 0;        // of what is computed in float; scaled
+    std::vector<Plate> plates_; // by face
     // By a hash of the key, open addressing; null where there is none yet.
     std::unique_ptr<std::atomic<const Cell*>[]> slots_;
     mutable std::atomic<uint64_t> bytes_{0}, domain_tests_{0};

@@ -10,11 +10,11 @@ namespace {
 } // namespace
 
 GrainFill::GrainFill(std::shared_ptr<const ProceduralFill> fill, std::shared_ptr<const Mixture> mixture, const RenderSpace& space)
-    : fill_(std::move(fill)), mixture_(std::move(mixture)), space_(space)
+    : fill_(std::move(fill)), mixture_(std::move(mixture)), origin_(space.origin), factor_(space.length(1))
 {
     double least = std::numeric_limits<double>::infinity();
     for (uint64_t row = 0; row < fill_->tile().rows(); ++row) {
-        const double r = space_.length(fill_->radius(row));
+        const double r = fill_->radius(row) * factor_;
         least = std::min(least, r);
         largest_radius_ = std::max(largest_radius_, r);
     }
@@ -23,8 +23,8 @@ GrainFill::GrainFill(std::shared_ptr<const ProceduralFill> fill, std::shared_ptr
 
 GrainSphere GrainFill::to_render(const ProceduralFill::Sphere& sphere) const
 {
-    const V3d c = space_.point(sphere.centre);
-    return {{to_float(c.x), to_float(c.y), to_float(c.z)}, to_float(space_.length(sphere.radius))};
+    const V3d c = (sphere.centre - origin_) * factor_;
+    return {{to_float(c.x), to_float(c.y), to_float(c.z)}, to_float(sphere.radius * factor_)};
 }
 
 uint8_t GrainFill::type(uint64_t id, const ProceduralFill::Sphere& sphere) const

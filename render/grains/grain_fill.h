@@ -30,7 +30,8 @@ public:
 private:
     std::shared_ptr<const ProceduralFill> fill_;
     std::shared_ptr<const Mixture> mixture_;
-    RenderSpace space_;
+    Imath::V3d origin_; // of render coordinates
+    double factor_ = 1; // power of two: render units a scene unit
     FloatMargin margin_;
     double largest_radius_ = 0;
 };
