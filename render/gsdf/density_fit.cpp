@@ -90,9 +90,9 @@ void mirror(Field& field)
 {
     for (uint32_t s = 0; s < strata; ++s) {
         for (int row = 0; row < rows; ++row) {
-            for (int column = 0; column < columns / 2; ++column) {
+            for (int column = 1; column < columns / 2; ++column) {
                 double& a = field[at(s, row, column)];
-                double& b = field[at(s, row, columns - 1 - column)];
+                double& b = field[at(s, row, -column)];
                 a = b = 0.5 * (a + b);
             }
         }

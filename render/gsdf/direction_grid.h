@@ -5,7 +5,8 @@
 namespace scree {
 
 /// Cells over the sphere of directions, equally wide in the polar angle and in azimuth, in the frame of an encounter (see
-/// Encounter); a cell is a row (polar angle, from straight on to straight back) and a column.
+/// Encounter); a cell is a row (polar angle, from straight on to straight back) and a column. The plane of incidence lies in the
+/// middle of columns, as much is scattered within it.
 struct DirectionGrid {
     static constexpr uint32_t rows = 64, columns = 32, cells = rows * columns;
     static constexpr double row_width = pi / rows, column_width = 2 * pi / columns;
@@ -23,11 +24,11 @@ struct DirectionGrid {
     static uint32_t cell(const V2d& angles)
     {
         const auto row = std::min(rows - 1, static_cast<uint32_t>(angles.x / row_width));
-        return row * columns + std::min(columns - 1, static_cast<uint32_t>(angles.y / column_width));
+        return row * columns + static_cast<uint32_t>(angles.y / column_width + 0.5) % columns;
     }
     static V3d centre(uint32_t cell)
     {
-        return direction((cell / columns + 0.5) * row_width, (cell % columns + 0.5) * column_width);
+        return direction((cell / columns + 0.5) * row_width, cell % columns * column_width);
     }
     /// Solid angle of a cell.
     static double area(uint32_t cell)

@@ -128,7 +128,7 @@ uint32_t Gsdf::stratum(double q, double u)
 double Gsdf::density(uint32_t stratum, const V3d& w) const
 {
     const V2d angles = Grid::angles(w);
-    const Tent row(angles.x / Grid::row_width), column(angles.y / Grid::column_width);
+    const Tent row(angles.x / Grid::row_width), column(angles.y / Grid::column_width + 0.5);
     const float* values = data_.density.data() + index(stratum, 0);
     const auto across = [&](int r) {
         const float low = values[neighbour(r, column.low)], high = values[neighbour(r, column.low + 1)];

@@ -10,7 +10,7 @@
 
 namespace scree {
 
-/// A direction or a place on the unit sphere in 32 bits, off by less than 5e-5 (octahedral map, Cigolle et al. 2014, JCGT 3(2)).
+/// A direction or a place on the unit sphere in 32 bits, off by less than 8e-5 (octahedral map, Cigolle et al. 2014, JCGT 3(2)).
 struct PackedDirection {
     uint16_t u = 0, v = 0;
 
