@@ -19,7 +19,7 @@ namespace {
 
 constexpr uint64_t slot_count = uint64_t{1} << 19;
 constexpr uint64_t most_probes = 16;
-constexpr uint64_t most_bytes = uint64_t{96} << 20;
+constexpr uint64_t most_bytes = uint64_t{96} << 20; // of cells
 constexpr size_t most_triangles = 128; // of a cell: where more are near, the tree is faster than the list
 constexpr int axis_bits = 20;         // of a cell's number along an axis
 constexpr size_t lanes = 8;
@@ -141,7 +141,7 @@ const SurfaceCells::Cell* SurfaceCells::find(uint64_t key) const
     for (uint64_t probe = 0; probe < most_probes; ++probe, slot = (slot + 1) % slot_count) {
         const Cell* cell = slots_[slot].load(std::memory_order_acquire);
         if (!cell) {
-            if (bytes_.load(std::memory_order_relaxed) > most_bytes) return nullptr;
+            if (bytes_.load(std::memory_order_relaxed) > most_bytes + plates_.size() * sizeof(Plate)) return nullptr;
             std::unique_ptr<Cell> made = make(key);
             const uint64_t size = sizeof(Cell) + made->planes.capacity() * sizeof(Planes);
             if (slots_[slot].compare_exchange_strong(cell, made.get(), std::memory_order_acq_rel)) {
@@ -210,7 +210,8 @@ std::unique_ptr<SurfaceCells::Cell> SurfaceCells::make(uint64_t key) const
 
 double SurfaceCells::lower_bound(const Plate& plate, const V3d& place, double least) const
 {
-    return std::max(least, plate.beyond((place - plate.middle) * scale_));
+    // As far as places are rounded, error_ is far above it.
+    return std::max(least, plate.beyond((place - plate.middle) * scale_) - error_);
 }
 
 bool SurfaceCells::contains_sphere(const V3d& centre, double radius) const
