@@ -80,8 +80,8 @@ Dendrite make_dendrite(const DendriteOptions& options, ShapeRandom& random)
     const double room = 0.7 * spacing * half_sqrt3;
     for (const double at : spread(options.branches, first, last, 0.3, random)) {
         // Longest in the middle of the arm: at its tip they are young, near the plate in each other's shade.
-        const double grown = std::min({1.0, 2.6 * (1 - at) + 0.15, at / 0.45});
-        Limb branch{at, options.branch_length * grown * random.uniform(0.75, 1), std::min(0.7 * options.width, 0.22 * room), {}, {}};
+        const double grown = std::min({1.0, 1.9 * (1 - at) + 0.1, at / 0.5});
+        Limb branch{at, options.branch_length * grown * random.uniform(0.6, 1), std::min(0.7 * options.width, 0.22 * room), {}, {}};
         // Tips stay within 30 degrees of their arm: the next arm's sector begins there.
         branch.length = std::clamp(branch.length, 1.6 * options.width, 0.8 * at);
         const double twig_width = 0.5 * branch.width;
