@@ -189,7 +189,21 @@ TEST(GrainLibrary, DefaultsAreSpelledOutInTheHash)
 // held to far more than the last bits, in which the machines' sines and powers may differ.
 TEST(GrainLibrary, ShapesArePinned)
 {
-    const std::map<std::string, double> volumes{};
+    const std::map<std::string, double> volumes{
+        {"sugar", 1.613870639036},
+        {"brown_sugar", 2.065607669301},
+        {"ice", 1.744100702781},
+        {"snowflake", 0.044841955219},
+        {"white_sand", 1.543591157724},
+        {"yellow_sand", 2.063965920139},
+        {"brown_sand", 1.211425584340},
+        {"dark_brown_sand", 2.060545525172},
+        {"black_sand", 1.669854641717},
+        {"flour", 1.991252128976},
+        {"hairball", 0.021488489598},
+        {"cinnamon", 0.354704436353},
+        {"dielectric_sphere", 4.160540155367},
+        {"diffuse_sphere", 4.160540155367}};
     for (const LibraryGrain& grain : grain_library()) {
         const double volume = signed_volume(shape_of(grain, 2000, 5));
         ASSERT_TRUE(volumes.contains(grain.name));
