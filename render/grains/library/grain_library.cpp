@@ -4,6 +4,7 @@
 #include "ingest/support/text.h"
 #include "mixtures/hash.h"
 #include "render/grains/enclosing_sphere.h"
+#include "render/grains/library/radial_surface.h"
 #include "render/grains/library/shape_generator.h"
 
 #include <fmt/format.h>
@@ -37,6 +38,11 @@ Material lambert(const C3f& reflectance)
     material.kind = MaterialKind::lambert;
     material.reflectance = reflectance;
     return material;
+}
+
+TriangleMesh make_ball(const ShapeRequest& request)
+{
+    return radial_surface([](const V3d&) { return 1.0; }, request.triangles);
 }
 
 struct CrystalDefaults {
@@ -99,7 +105,7 @@ const std::vector<ShapeParameter> bark_curl{
     {"opening", 0.42, 0.25, 1.5, "growth of the radius per turn"},
     {"thickness", 0.16, 0.02, 0.2, "of the bark"},
     {"raggedness", 0.3, 0, 0.5, "of torn edges"},
-    {"roughness", 0.3, 0, 0.6, "depth of furrows, in thicknesses"}};
+    {"roughness", 0.3, 0, 0.5, "depth of furrows, in thicknesses"}};
 
 const std::vector<ShapeParameter> no_parameters;
 

@@ -92,9 +92,4 @@ TriangleMesh make_pebble(const ShapeRequest& request)
     return radial_surface(radius, request.triangles);
 }
 
-TriangleMesh make_ball(const ShapeRequest& request)
-{
-    return radial_surface([](const V3d&) { return 1.0; }, request.triangles);
-}
-
 } // namespace scree
