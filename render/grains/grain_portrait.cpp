@@ -8,7 +8,10 @@ namespace scree {
 
 namespace {
 
-/// Turns the mesh so that it lies on the side on which its middle is lowest.
+const V3d to_viewer(0.6, -6.5, 5.2), to_sun(-0.9, -0.45, 0.75);
+
+/// Turns the mesh so that it lies on the side on which its middle is lowest; what is flat stands so that it mirrors the sun to
+/// the viewer.
 void lay_down(TriangleMesh& mesh)
 {
     constexpr int directions = 400;
@@ -25,7 +28,9 @@ void lay_down(TriangleMesh& mesh)
         }
     }
     const Frame frame(-down);
-    for (V3d& p : mesh.positions) p = frame.to_local(p);
+    const bool flat = lowest < 0.2;
+    const Frame stand(flat ? (to_viewer.normalized() + to_sun.normalized()).normalized() : V3d(0, 0, 1));
+    for (V3d& p : mesh.positions) p = stand.to_world(frame.to_local(p));
 }
 
 /// A sky that is brighter towards the horizon: what is clear shows its shape by it.
@@ -65,15 +70,15 @@ World make_world(const LibraryGrain& grain, const ShapeOptions& shape, const std
     constexpr float half = 60; // of the floor: to the horizon, as far as the camera and the grain can tell
     const auto z = static_cast<float>(lowest - 0x1p-12);
     Surface floor{"floor", {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}}, {{0, 1, 2}, {0, 2, 3}}, {}};
-    floor.material.reflectance = C3f(0.22f);
+    floor.material.reflectance = C3f(0.12f);
     world.surfaces.push_back(std::move(floor));
 
     LightDescription sky, sun;
     sky.kind = LightDescription::Kind::environment;
     sun.kind = LightDescription::Kind::distant;
-    sun.direction = V3d(0.9, 0.45, -0.75);
+    sun.direction = -to_sun;
     sun.irradiance = C3f(2.2f, 2.1f, 1.95f);
-    sun.angle = 9; // softer than the sun, so that its light through the grain converges
+    sun.angle = 32; // through haze, so that what it sends through the grain converges soon
     world.lights = LightSet({make_light(sky, make_sky(), world.space), make_light(sun, nullptr, world.space)}, 2);
     return world;
 }
@@ -87,8 +92,8 @@ Film render_portrait(const LibraryGrain& grain, const ShapeOptions& shape, const
     const World world = make_world(grain, shape, place, *device);
     const Tracer tracer(device, world);
     CameraDescription view;
-    view.origin = V3d(0.6, -6.5, 5.2);
-    view.target = V3d(0.08, 0, 0.5 * (world.surfaces[0].positions[0].z + 0.1));
+    view.origin = to_viewer;
+    view.target = V3d(0.06, 0, 0);
     view.fov = 17.5;
     const Camera camera(view, options.size, options.size);
     Film film(options.size, options.size, 0, 0, options.size, options.size);

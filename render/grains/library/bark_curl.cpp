@@ -15,7 +15,8 @@ TriangleMesh make_bark_curl(const ShapeRequest& request)
 
     // n_u x n_v cells on either face and the rim between: 4 (n_u n_v + n_u + n_v) triangles, cells about square.
     const double quarter = static_cast<double>(request.triangles) / 4;
-    const auto n_v = static_cast<uint32_t>(std::max(1.0, std::round(std::sqrt(quarter * length / arc) - 0.5)));
+    const double most_v = std::floor((quarter - 2) / 3); // leaves room for two cells along u
+    const auto n_v = static_cast<uint32_t>(std::clamp(std::round(std::sqrt(quarter * length / arc) - 0.5), 1.0, std::max(1.0, most_v)));
     const auto n_u = static_cast<uint32_t>(std::max(2.0, std::round((quarter - n_v) / (n_v + 1))));
     const double turns = std::min(full_turns, n_u / 8.0); // what few cells can bend without cutting through themselves
 
@@ -44,7 +45,7 @@ TriangleMesh make_bark_curl(const ShapeRequest& request)
         const V3d place(std::cos(angle), std::sin(angle), length * along);
         double r = 1 + request["opening"] * turn + 0.35 * thickness * wave(place);
         const double skin = thickness * (0.8 + 0.4 * wave(place + V3d(5)));
-        r += side * skin + (side > 0.5 ? 1 : 0.4) * roughness * thickness * furrow((1 + turn) * place);
+        r += side * skin + (side > 0.5 ? 1 : 0.6) * roughness * thickness * furrow((1 + turn) * place);
         return V3d(r * std::cos(angle), r * std::sin(angle), length * along);
     };
     TriangleMesh mesh;

@@ -74,14 +74,16 @@ std::vector<double> spread(int count, double lo, double hi, double jitter, Shape
 Dendrite make_dendrite(const DendriteOptions& options, ShapeRandom& random)
 {
     Limb arm{0, 1, options.width, {}, {}};
-    const double first = options.plate + 2.4 * options.width, last = 0.93;
+    // A narrower plate would leave no notch between the arms' flanks.
+    const double plate = std::max(options.plate, 2.5 * options.width);
+    const double first = plate + 2.4 * options.width, last = 0.93;
     const double spacing = (last - first) / std::max(1, options.branches);
     // Of the room between neighbours, across them, a branch and the twigs that reach into it from both sides.
     const double room = 0.7 * spacing * half_sqrt3;
     for (const double at : spread(options.branches, first, last, 0.3, random)) {
         // Longest in the middle of the arm: at its tip they are young, near the plate in each other's shade.
-        const double grown = std::min({1.0, 2.6 * (1 - at) + 0.15, at / 0.45});
-        Limb branch{at, options.branch_length * grown * random.uniform(0.75, 1), std::min(0.7 * options.width, 0.22 * room), {}, {}};
+        const double grown = std::min({1.0, 1.9 * (1 - at) + 0.1, at / 0.5});
+        Limb branch{at, options.branch_length * grown * random.uniform(0.6, 1), std::min(0.7 * options.width, 0.22 * room), {}, {}};
         // Tips stay within 30 degrees of their arm: the next arm's sector begins there.
         branch.length = std::clamp(branch.length, 1.6 * options.width, 0.8 * at);
         const double twig_width = 0.5 * branch.width;
@@ -90,8 +92,10 @@ Dendrite make_dendrite(const DendriteOptions& options, ShapeRandom& random)
         const int twigs = std::min(options.twigs, static_cast<int>((end - begin) / (5 * twig_width)));
         if (twigs > 0) {
             for (const double place : spread(twigs, begin, end, 0.2, random)) {
-                const double length = branch.width / half_sqrt3 + reach / half_sqrt3 * random.uniform(0.45, 1);
-                branch.right.push_back({place, length, twig_width, {}, {}});
+                const double root = branch.width / half_sqrt3, grown_to = root + reach / half_sqrt3 * random.uniform(0.45, 1);
+                // Beyond half of (at - place) a twig would leave the arm's sector.
+                const double length = std::min(grown_to, 0.45 * (at - place) - 2 * twig_width);
+                if (length > root + 2 * twig_width) branch.right.push_back({place, length, twig_width, {}, {}});
             }
             branch.left = branch.right;
         }
@@ -105,7 +109,7 @@ Dendrite make_dendrite(const DendriteOptions& options, ShapeRandom& random)
         const V2d along(cosines[k], sines[k]), side = left_of(along);
         Tracing tracing(figure);
         // The plate's corner is where the arm begins: the hexagon's edges run back from its flanks.
-        const double corner = options.plate - options.width / std::sqrt(3.0);
+        const double corner = plate - options.width / std::sqrt(3.0);
         figure.outline.push_back(along * corner - side * options.width);
         tracing.trace(arm, V2d(0, 0), along);
         figure.outline.push_back(along * corner + side * options.width);

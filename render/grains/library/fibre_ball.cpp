@@ -10,7 +10,8 @@ std::vector<V3d> wind(ShapeRandom& random, size_t points, double length, double 
 {
     constexpr size_t steps = 400; // of the walk: the same fibre at every tessellation
     std::vector<V3d> walk;
-    V3d p = 0.85 * random.in_ball(), direction = random.direction(), bend = random.in_ball();
+    const double rim = 0.97 - 0.35 * random.uniform() * random.uniform(); // a few fibres stand out
+    V3d p = 0.85 * rim * random.in_ball(), direction = random.direction(), bend = random.in_ball();
     const double step = length / steps;
     for (size_t i = 0; i <= steps; ++i) {
         walk.push_back(p);
@@ -18,10 +19,10 @@ std::vector<V3d> wind(ShapeRandom& random, size_t points, double length, double 
         V3d turn = curliness * bend;
         const double r = p.length();
         // Near the rim it bends inwards: a wound ball has its fibres along its surface.
-        if (r > 0.75) turn -= (12 * (r - 0.75) / 0.25) * p / r;
+        if (r > 0.8 * rim) turn -= (12 * (r / rim - 0.8) / 0.2) * p / r;
         turn -= direction * turn.dot(direction);
         direction = (direction + step * turn).normalized();
-        if (r > 0.97 && direction.dot(p) > 0) direction = (direction - p * (direction.dot(p) / (r * r))).normalized();
+        if (r > rim && direction.dot(p) > 0) direction = (direction - p * (direction.dot(p) / (r * r))).normalized();
         p += step * direction;
     }
     std::vector<V3d> line;
@@ -67,7 +68,7 @@ void add_tube(const std::vector<V3d>& line, size_t sides, double radius, Triangl
 TriangleMesh make_fibre_ball(const ShapeRequest& request)
 {
     const uint64_t triangles = request.triangles;
-    const size_t sides = triangles < 4000 ? 3 : triangles < 40000 ? 4 : 6;
+    const size_t sides = triangles < 4000 ? 3 : triangles < 150000 ? 4 : 6;
     // Few triangles: fewer fibres, of twelve pieces each at least where there are enough.
     const uint64_t least = 2 * sides * 12 + 2 * (sides - 2);
     const uint64_t fibres = std::clamp<uint64_t>(triangles / least, 1, static_cast<uint64_t>(request["fibres"]));

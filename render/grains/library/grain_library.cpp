@@ -4,6 +4,7 @@
 #include "ingest/support/text.h"
 #include "mixtures/hash.h"
 #include "render/grains/enclosing_sphere.h"
+#include "render/grains/library/radial_surface.h"
 #include "render/grains/library/shape_generator.h"
 
 #include <fmt/format.h>
@@ -39,6 +40,11 @@ Material lambert(const C3f& reflectance)
     return material;
 }
 
+TriangleMesh make_ball(const ShapeRequest& request)
+{
+    return radial_surface([](const V3d&) { return 1.0; }, request.triangles);
+}
+
 struct CrystalDefaults {
     double elongation, intergrown, chips, rounding, roughness;
 };
@@ -72,24 +78,24 @@ std::vector<ShapeParameter> pebble(const PebbleDefaults& d)
 }
 
 const std::vector<ShapeParameter> cluster{
-    {"granules", 90, 0, 400, "starch granules in the skin"},
-    {"granule_size", 0.3, 0.03, 0.5, "radius of the largest, in radii"},
-    {"lumpiness", 0.5, 0, 0.7, "height of the lump's own bumps, in radii"},
-    {"lump_size", 0.8, 0.2, 2, "of those bumps, in radii"},
+    {"granules", 170, 0, 400, "starch granules in the skin"},
+    {"granule_size", 0.17, 0.03, 0.5, "radius of the largest, in radii"},
+    {"lumpiness", 0.42, 0, 0.7, "height of the lump's own bumps, in radii"},
+    {"lump_size", 0.6, 0.2, 2, "of those bumps, in radii"},
     {"roughness", 0.02, 0, 0.1, "height of the finest bumps, in radii"}};
 
 const std::vector<ShapeParameter> snowflake{
     {"plate", 0.2, 0.1, 0.4, "radius of the hexagon in the middle over the length of an arm"},
     {"arm_width", 0.035, 0.015, 0.06, "half width of an arm over its length"},
-    {"branch_length", 0.5, 0.1, 0.8, "of the longest branches"},
+    {"branch_length", 0.5, 0.1, 0.8, "of the longest branches over that of an arm"},
     {"branches", 6, 0, 9, "on each side of an arm, if the triangles suffice"},
     {"twigs", 4, 0, 8, "on each side of a branch, if the triangles suffice"},
     {"thickness", 0.035, 0.01, 0.2, "of the plate at its rim, over the length of an arm"},
     {"ridge", 0.8, 0, 3, "how much thicker limbs are along their middle"}};
 
 const std::vector<ShapeParameter> fibre_ball{
-    {"fibres", 140, 1, 2000, "how many, if the triangles suffice"},
-    {"thickness", 0.014, 0.002, 0.1, "radius of a fibre"},
+    {"fibres", 200, 1, 2000, "how many, if the triangles suffice"},
+    {"thickness", 0.009, 0.002, 0.1, "radius of a fibre"},
     {"length", 7, 0.5, 30, "of a fibre"},
     {"curliness", 2.5, 0, 10, "curvature of a fibre in the ball's inside"}};
 
@@ -99,7 +105,7 @@ const std::vector<ShapeParameter> bark_curl{
     {"opening", 0.42, 0.25, 1.5, "growth of the radius per turn"},
     {"thickness", 0.16, 0.02, 0.2, "of the bark"},
     {"raggedness", 0.3, 0, 0.5, "of torn edges"},
-    {"roughness", 0.3, 0, 0.6, "depth of furrows, in thicknesses"}};
+    {"roughness", 0.3, 0, 0.5, "depth of furrows, in thicknesses"}};
 
 const std::vector<ShapeParameter> no_parameters;
 
@@ -108,27 +114,27 @@ constexpr double mm = 1e-3;
 const std::vector<Entry>& entries()
 {
     static const std::vector<Entry> all{
-        {{"sugar", "granulated sugar: a chipped crystal of sucrose", dielectric(1.558, 0.2, {0.002f, 0.002f, 0.004f}), 0.3 * mm, 20000, 1},
+        {{"sugar", "granulated sugar: a chipped crystal of sucrose", dielectric(1.558, 0.2, {0.002f, 0.004f, 0.011f}), 0.3 * mm, 20000, 1},
          make_crystal, crystal({1.15, 1, 5, 0.012, 0.006})},
-        {{"brown_sugar", "brown sugar: small crystals grown together, coated with molasses", dielectric(1.558, 0.4, {0.15f, 0.45f, 1.4f}), 0.35 * mm, 20000, 1},
+        {{"brown_sugar", "brown sugar: small crystals grown together, coated with molasses", dielectric(1.558, 0.3, {0.2f, 0.4f, 1.1f}), 0.35 * mm, 20000, 1},
          make_crystal, crystal({1.0, 4, 3, 0.04, 0.02})},
-        {{"ice", "crushed ice, its edges melted round", dielectric(1.31, 0, {0.00013f, 0.00005f, 0.000004f}), 2 * mm, 40000, 1},
-         make_pebble, pebble({0.85, 0.7, 14, 0.32, 3, 0.2, 0.03, 0.05, 0.9})},
-        {{"snowflake", "snow crystal: a stellar dendrite", dielectric(1.31, 0, {0.00013f, 0.00005f, 0.000004f}), 1 * mm, 20000, 1},
+        {{"ice", "crushed ice, its edges melted round", dielectric(1.31, 0, {0.00013f, 0.000055f, 0.000016f}), 2 * mm, 40000, 1},
+         make_pebble, pebble({0.85, 0.7, 14, 0.32, 3, 0.2, 0.03, 0.06, 0.9})},
+        {{"snowflake", "snow crystal: a stellar dendrite", dielectric(1.31, 0, {0.00013f, 0.000055f, 0.000016f}), 1 * mm, 20000, 1},
          make_snowflake, snowflake},
-        {{"white_sand", "quartz sand, clear, its surface frosted", dielectric(1.545, 0.4, {0.02f, 0.03f, 0.05f}), 0.25 * mm, 20000, 1},
-         make_pebble, pebble({0.85, 0.7, 12, 0.3, 1, 0.12, 0.06, 0.05, 0.5})},
-        {{"yellow_sand", "beach sand: quartz stained by goethite", dielectric(1.545, 0.45, {0.07f, 0.19f, 0.55f}), 0.25 * mm, 20000, 1},
-         make_pebble, pebble({0.8, 0.65, 10, 0.25, 1, 0.1, 0.1, 0.06, 0.5})},
-        {{"brown_sand", "quartz and feldspar sand stained by iron oxides", dielectric(1.545, 0.5, {0.2f, 0.45f, 1.0f}), 0.3 * mm, 20000, 1},
-         make_pebble, pebble({0.8, 0.62, 14, 0.3, 2, 0.12, 0.05, 0.08, 0.45})},
-        {{"dark_brown_sand", "sand of garnet, ilmenite and stained quartz", dielectric(1.62, 0.45, {0.8f, 1.6f, 2.6f}), 0.25 * mm, 20000, 1},
-         make_pebble, pebble({0.85, 0.72, 16, 0.28, 2, 0.12, 0.04, 0.07, 0.4})},
-        {{"black_sand", "volcanic sand: basaltic glass", dielectric(1.6, 0.35, {20.0f, 21.0f, 22.0f}), 0.25 * mm, 20000, 1},
-         make_pebble, pebble({0.8, 0.65, 18, 0.36, 3, 0.18, 0.02, 0.1, 0.45})},
-        {{"flour", "wheat flour: a lump of endosperm with starch granules", lambert({0.99f, 0.985f, 0.96f}), 0.06 * mm, 20000, 1}, make_cluster, cluster},
-        {{"hairball", "wound hair: closed tubes that run through each other", lambert({0.42f, 0.29f, 0.19f}), 5 * mm, 100000, 1}, make_fibre_ball, fibre_ball},
-        {{"cinnamon", "a curled piece of cinnamon bark", lambert({0.6f, 0.34f, 0.17f}), 0.5 * mm, 20000, 1}, make_bark_curl, bark_curl},
+        {{"white_sand", "quartz sand, clear, its surface frosted", dielectric(1.545, 0.4, {0.06f, 0.075f, 0.11f}), 0.25 * mm, 20000, 1},
+         make_pebble, pebble({0.85, 0.7, 18, 0.36, 4, 0.16, 0.04, 0.1, 0.4})},
+        {{"yellow_sand", "beach sand: quartz stained by goethite", dielectric(1.545, 0.45, {0.14f, 0.32f, 0.9f}), 0.25 * mm, 20000, 1},
+         make_pebble, pebble({0.82, 0.7, 12, 0.28, 2, 0.12, 0.09, 0.1, 0.4})},
+        {{"brown_sand", "quartz and feldspar sand stained by iron oxides", dielectric(1.545, 0.5, {0.38f, 0.75f, 1.5f}), 0.3 * mm, 20000, 1},
+         make_pebble, pebble({0.8, 0.62, 16, 0.34, 4, 0.16, 0.04, 0.12, 0.45})},
+        {{"dark_brown_sand", "sand of garnet, ilmenite and stained quartz", dielectric(1.62, 0.45, {1.3f, 2.1f, 3.1f}), 0.25 * mm, 20000, 1},
+         make_pebble, pebble({0.85, 0.72, 20, 0.32, 3, 0.14, 0.03, 0.1, 0.35})},
+        {{"black_sand", "volcanic sand: basaltic glass", dielectric(1.6, 0.35, {6.0f, 6.3f, 6.6f}), 0.25 * mm, 20000, 1},
+         make_pebble, pebble({0.8, 0.65, 18, 0.36, 4, 0.18, 0.02, 0.12, 0.4})},
+        {{"flour", "wheat flour: a lump of endosperm with starch granules", lambert({0.985f, 0.975f, 0.935f}), 0.06 * mm, 20000, 1}, make_cluster, cluster},
+        {{"hairball", "wound hair: closed tubes that run through each other", lambert({0.5f, 0.34f, 0.23f}), 5 * mm, 100000, 1}, make_fibre_ball, fibre_ball},
+        {{"cinnamon", "a curled piece of cinnamon bark", lambert({0.62f, 0.37f, 0.2f}), 0.5 * mm, 20000, 1}, make_bark_curl, bark_curl},
         {{"dielectric_sphere", "the sphere itself, of clear glass", dielectric(1.5, 0, C3f(0.0f)), 0.5 * mm, 0, 1}, make_ball, no_parameters},
         {{"diffuse_sphere", "the sphere itself, diffuse", lambert(C3f(0.8f)), 0.5 * mm, 0, 1}, make_ball, no_parameters}};
     return all;

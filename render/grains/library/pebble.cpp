@@ -56,41 +56,40 @@ TriangleMesh make_pebble(const ShapeRequest& request)
     for (const V3d& n : spread_directions(static_cast<size_t>(request["facets"]), random)) {
         planes.push_back({n, 1 - request["angularity"] * random.uniform(0.35, 1)});
     }
+    const double rounding = request["rounding"], p = 1 / rounding;
+    const auto cut_sphere = [&](const V3d& d) {
+        double sum = 1;
+        for (const HalfSpace& plane : planes) {
+            const double term = plane.normal.dot(d) / plane.distance;
+            if (term > 0) sum += std::pow(term, p);
+        }
+        return std::pow(sum, -rounding);
+    };
     std::vector<Scoop> scoops;
     for (const V3d& n : spread_directions(static_cast<size_t>(request["breaks"]), random)) {
         // Radius far above depth: no ray touches the shell's rim inside the grain, so that the surface has no step.
-        const double radius = random.uniform(0.9, 2), depth = request["break_depth"] * random.uniform(0.5, 1);
-        scoops.push_back({n * (1 - depth + radius), radius});
+        const double radius = random.uniform(1.4, 2.6), depth = request["break_depth"] * random.uniform(0.5, 1);
+        scoops.push_back({n * (cut_sphere(n) - depth + radius), radius});
     }
 
     NoiseOptions bumps;
     bumps.scale = V3d(request["bump_size"]);
     bumps.octaves = 1 + static_cast<int>(std::clamp(std::log2(0.5 * request["bump_size"] / mean_edge(request.triangles)), 0.0, 6.0));
-    bumps.gain = 0.55;
+    bumps.gain = 0.65;
     bumps.seed = random.next();
     const FractalNoise noise(bumps);
-    const double roughness = request["roughness"], rounding = request["rounding"], p = 1 / rounding;
+    const double roughness = request["roughness"];
     const RadialFunction radius = [&](const V3d& d) {
         // In the space where the ellipsoid is the unit sphere.
         const V3d stretched(d.x / axes.x, d.y / axes.y, d.z / axes.z);
         const double length = stretched.length();
         const V3d u = stretched / length;
-        double sum = 1;
-        for (const HalfSpace& plane : planes) {
-            const double term = plane.normal.dot(u) / plane.distance;
-            if (term > 0) sum += std::pow(term, p);
-        }
-        double r = std::pow(sum, -rounding);
+        double r = cut_sphere(u);
         for (const Scoop& scoop : scoops) r = std::min(r, scoop.entry(u));
         r /= length;
         return r * (1 + roughness * noise(r * d));
     };
     return radial_surface(radius, request.triangles);
-}
-
-TriangleMesh make_ball(const ShapeRequest& request)
-{
-    return radial_surface([](const V3d&) { return 1.0; }, request.triangles);
 }
 
 } // namespace scree

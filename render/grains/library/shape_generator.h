@@ -29,7 +29,5 @@ TriangleMesh make_snowflake(const ShapeRequest& request);
 TriangleMesh make_fibre_ball(const ShapeRequest& request);
 /// A curled piece of bark.
 TriangleMesh make_bark_curl(const ShapeRequest& request);
-/// The sphere.
-TriangleMesh make_ball(const ShapeRequest& request);
 
 } // namespace scree
