@@ -4,7 +4,7 @@
 
 #include "ingest/self_intersections.h"
 #include "mixtures/hash.h"
-#include "render/integrators/ept.h"
+#include "render/integrators/path_tracer.h"
 #include "tests/builders/packings.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/statistics.h"
@@ -242,7 +242,7 @@ TEST_P(LibraryFurnace, LosslessGrainsAreWhite)
         const double z = 2 * sampler.next() - 1, phi = 2 * pi * sampler.next(), r = std::sqrt(1 - z * z);
         const V3d o = 3.0 * V3d(r * std::cos(phi), r * std::sin(phi), z);
         const V3d target(1.6 * sampler.next() - 0.8, sampler.next() - 0.5, sampler.next() - 0.5);
-        results[p] = trace_ept(scene.world(), scene.tracer(), o, (target - o).normalized(), sampler);
+        results[p] = trace_path(scene.world(), scene.tracer(), o, (target - o).normalized(), sampler);
     });
     Estimate radiance;
     uint64_t segments = 0, leaks = 0;
