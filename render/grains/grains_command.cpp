@@ -1,6 +1,7 @@
 #include "render/grains/grains_command.h"
 
 #include "render/grains/library/grain_library.h"
+#include "render/gsdf/gsdf_command.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -101,6 +102,7 @@ void add_grains_command(CLI::App& app)
     add_list_command(*grains);
     add_grains_export_command(*grains);
     add_grains_show_command(*grains);
+    add_gsdf_command(*grains);
 }
 
 } // namespace scree

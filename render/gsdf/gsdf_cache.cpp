@@ -53,36 +53,42 @@ bool is_gsdf_stored(const GsdfSource& source, const GsdfOptions& options, const 
 
 FoundGsdf find_gsdf(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder, const Progress& progress)
 {
-    FoundGsdf found;
     const uint64_t key = gsdf_key(source, options.seed);
-    if (!folder.empty()) {
-        found.file = file_of(key, folder);
-        std::error_code none;
-        if (std::filesystem::exists(found.file, none)) {
-            try {
-                StoredGsdf stored = read_gsdf(found.file);
-                if (stored.tag.key != key) {
-                    found.remark = fmt::format("{} was of another grain and is made again", found.file.string());
-                } else if (stored.gsdf->data().quality.density_error <= options.error || stored.tag.error <= options.error) {
-                    found.gsdf = std::move(stored.gsdf);
-                    return found;
-                }
-            } catch (const InputError& error) {
-                found.remark = fmt::format("{}: {}; it is made again", error.place(), error.found());
+    const std::filesystem::path file = folder.empty() ? folder : file_of(key, folder);
+    std::string remark;
+    std::error_code none;
+    if (!folder.empty() && std::filesystem::exists(file, none)) {
+        try {
+            StoredGsdf stored = read_gsdf(file);
+            if (stored.tag.key != key) {
+                remark = fmt::format("{} was of another grain and is made again", file.string());
+            } else if (stored.gsdf->data().quality.density_error <= options.error || stored.tag.error <= options.error) {
+                return {std::move(stored.gsdf), false, "", file};
             }
+        } catch (const InputError& error) {
+            remark = fmt::format("{}: {}; it is made again", error.place(), error.found());
         }
     }
+    FoundGsdf found = make_gsdf(source, options, folder, progress);
+    if (found.remark.empty()) found.remark = remark;
+    return found;
+}
+
+FoundGsdf make_gsdf(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder, const Progress& progress)
+{
     const std::shared_ptr<const Exemplar> exemplar = source.exemplar ? source.exemplar() : nullptr;
+    FoundGsdf found;
     found.gsdf = build_gsdf({exemplar.get(), source.material}, options, progress);
     found.computed = true;
     if (folder.empty()) return found;
+    const uint64_t key = gsdf_key(source, options.seed);
     try {
         std::error_code none;
         std::filesystem::create_directories(folder, none);
-        write_gsdf(found.file, *found.gsdf, {key, options.error});
+        write_gsdf(file_of(key, folder), *found.gsdf, {key, options.error});
+        found.file = file_of(key, folder);
     } catch (const InputError& error) {
         found.remark = fmt::format("the scattering of grains is not kept for the next run: {}", error.what());
-        found.file.clear();
     }
     return found;
 }

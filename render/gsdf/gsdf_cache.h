@@ -36,4 +36,7 @@ bool is_gsdf_stored(const GsdfSource& source, const GsdfOptions& options, const 
 /// file is made again. Without a folder, or when it cannot be written, it is made for this run only.
 FoundGsdf find_gsdf(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder, const Progress& progress = {});
 
+/// The GSDF made anew and kept in `folder`, whatever is there.
+FoundGsdf make_gsdf(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder, const Progress& progress = {});
+
 } // namespace scree

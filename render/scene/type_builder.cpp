@@ -1,30 +1,16 @@
 #include "render/scene/type_builder.h"
 
-#include "ingest/support/error.h"
+#include "render/grains/shape_source.h"
 #include "render/gsdf/gsdf_cache.h"
 #include "render/scene/content_hash.h"
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
-
 namespace scree {
 
 namespace {
 
-uint64_t hash_file(const std::filesystem::path& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
-    if (!file.is_open() || bytes.empty()) read_mesh(path); // knows what to say
-    return hash_bytes(bytes.data(), bytes.size(), 1);
-}
-
-uint64_t hash_shape(const GrainTypeDescription& type)
-{
-    return type.mesh ? hash_file(*type.mesh) : type.has_mesh() ? hash_shape(*type.library, type.shape) : 0;
-}
+ShapeSource shape_source(const GrainTypeDescription& type) { return {type.mesh, type.library, type.shape}; }
 
 } // namespace
 
@@ -36,14 +22,7 @@ GsdfOptions gsdf_options(Accuracy accuracy)
 
 std::shared_ptr<const Exemplar> TypeBuilder::make_exemplar(const GrainTypeDescription& type) const
 {
-    const std::string place = type.mesh ? type.mesh->string() : type.place + "/shape";
-    const TriangleMesh mesh = type.mesh ? read_mesh(*type.mesh) : make_grain_shape(*type.library, type.shape, place);
-    auto exemplar = std::make_shared<Exemplar>(*device_, mesh, place);
-    if (type.material.transmits() && !exemplar->closed()) {
-        throw InputError(place, "an open or inconsistently oriented mesh", "a closed mesh, as the material of '" + type.name + "' is a dielectric",
-                         "close it, or give the type an opaque material");
-    }
-    return exemplar;
+    return scree::make_exemplar(*device_, shape_source(type), type.material, type.place + "/shape", type.name);
 }
 
 void TypeBuilder::add_exemplar(const GrainTypeDescription& type, Shape& shape, const TypeRequest& request) const
@@ -111,7 +90,7 @@ uint64_t TypeBuilder::build(const std::vector<GrainTypeDescription>& types, cons
         } else {
             const bool is_new = !shapes_.contains(type.name);
             Shape& shape = shapes_[type.name];
-            if (is_new) shape.hash = hash_shape(type);
+            if (is_new) shape.hash = hash_shape(shape_source(type));
             add_exemplar(type, shape, request);
             add_gsdf(type, shape, request);
             if (has_exemplars()) made.exemplar = shape.exemplar;

@@ -12,8 +12,13 @@ uint32_t TestScene::add_type(const Material& material)
 
 uint32_t TestScene::add_type(const Material& material, const TriangleMesh& mesh)
 {
+    return add_type(material, std::make_shared<Exemplar>(*device_, mesh, "test mesh"));
+}
+
+uint32_t TestScene::add_type(const Material& material, std::shared_ptr<const Exemplar> exemplar)
+{
     const uint32_t type = add_type(material);
-    world_.types[type].exemplar = std::make_shared<Exemplar>(*device_, mesh, "test mesh");
+    world_.types[type].exemplar = std::move(exemplar);
     return type;
 }
 

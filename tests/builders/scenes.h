@@ -20,6 +20,9 @@ public:
     /// A grain type; the shape is the bounding sphere, or a mesh. Returns its number.
     uint32_t add_type(const Material& material);
     uint32_t add_type(const Material& material, const TriangleMesh& mesh);
+    uint32_t add_type(const Material& material, std::shared_ptr<const Exemplar> exemplar);
+    /// The id of the first grain; the others follow.
+    void set_first_id(uint64_t id) { world_.grains.first_id = id; }
     /// Gives every type its GSDF, so that grains may be proxies; after types are added.
     void add_proxies(const GsdfOptions& options);
     void set_gsdf(uint32_t type, std::shared_ptr<const Gsdf> gsdf) { world_.types[type].gsdf = std::move(gsdf); }

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "mixtures/picture.h"
+#include "render/gsdf/map_errors.h"
+
+#include <string>
+
+namespace scree {
+
+/// Colour of a relative error: black at 1 % and below, through purple and orange to pale yellow at 1000 % and above,
+/// logarithmic. The scale is the same in every figure.
+ScreenColor error_color(double relative);
+
+/// The error maps of a grain as in Figures 5 to 32 of the supplement of Müller et al. 2016: a sheet of what is scattered
+/// forwards (omega_i on the side of n_o) and one of what is scattered backwards. Rows are cos beta_o, columns gamma_o; a disc
+/// shows sin beta_i by the distance from its middle and gamma_i by the angle, counter-clockwise from the right.
+///
+/// The colour is |p - p_true| over the mean density; ScatteringMap says of what. `caption` stands below, line by line.
+Picture draw_error_figure(const ScatteringMap& gsdf, const ScatteringMap& truth, int width, int height, const std::string& title,
+                          const std::vector<std::string>& caption);
+
+/// Smaller pictures have no room for it.
+inline constexpr int least_figure_width = 480, least_figure_height = 320;
+
+} // namespace scree

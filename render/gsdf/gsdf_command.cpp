@@ -1,0 +1,192 @@
+#include "render/gsdf/gsdf_command.h"
+
+#include "ingest/support/atomic_file.h"
+#include "ingest/support/console_progress.h"
+#include "ingest/support/error.h"
+#include "ingest/support/text.h"
+#include "render/film/exr_output.h"
+#include "render/gsdf/error_figure.h"
+#include "render/gsdf/gsdf_report.h"
+#include "render/interrupt.h"
+#include "render/scene/embree_device.h"
+#include "render/scene/part_report.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <optional>
+
+namespace scree {
+
+namespace {
+
+constexpr int interrupted_status = 130;
+
+struct Arguments {
+    std::vector<std::string> words;
+    SubjectOptions subject;
+    GsdfOptions gsdf;
+    bool again = false;
+    std::string figure, size = "1600x1010", json;
+    uint64_t figure_paths = 12'000'000;
+    int threads = 0;
+    bool quiet = false;
+};
+
+struct FigureSize {
+    int width, height;
+};
+
+FigureSize read_size(const std::string& text)
+{
+    const size_t x = text.find('x');
+    const auto width = to_int64(text.substr(0, x));
+    const auto height = x == std::string::npos ? std::nullopt : to_int64(text.substr(x + 1));
+    if (!width || !height || *width < least_figure_width || *height < least_figure_height || *width > 16384 || *height > 16384) {
+        throw InputError("--size", in_quotes(text), fmt::format("WIDTHxHEIGHT in pixels, {}x{} to 16384x16384", least_figure_width, least_figure_height));
+    }
+    return {static_cast<int>(*width), static_cast<int>(*height)};
+}
+
+/// Everything that can be wrong, before the work.
+void check_outputs(const Arguments& a)
+{
+    if (!a.figure.empty()) {
+        check_preview_format(a.figure);
+        AtomicFile(a.figure);
+    }
+    if (!a.json.empty() && a.json != "-") AtomicFile(a.json);
+}
+
+void write_text(const std::string& path, const std::string& text)
+{
+    AtomicFile file(path);
+    std::ofstream out(file.temporary(), std::ios::binary);
+    out << text;
+    out.close();
+    if (!out) throw InputError(path, "a file that cannot be written in full", "room for it");
+    file.commit();
+}
+
+class Command {
+public:
+    explicit Command(const Arguments& arguments) : a_(arguments), size_(read_size(a_.size)), console_(a_.quiet) {}
+
+    void run()
+    {
+        const std::vector<GsdfSubject> subjects = gsdf_subjects(a_.words, a_.subject);
+        if (!a_.figure.empty() && subjects.size() > 1) throw InputError("--figure", fmt::format("{} grains", subjects.size()), "one grain a figure");
+        check_outputs(a_);
+        std::vector<uint64_t> hashes; // of the shapes: a missing file is told before the work as well
+        for (const GsdfSubject& subject : subjects) hashes.push_back(hash_shape(subject.shape));
+
+        const InterruptGuard guard(console_.progress());
+        const bool table = a_.json != "-";
+        if (table) print(gsdf_table_head());
+        std::vector<GsdfReport> reports;
+        for (size_t i = 0; i < subjects.size(); ++i) {
+            console_.set_prefix(subjects.size() == 1 ? subjects[i].name : fmt::format("{} ({} of {})", subjects[i].name, i + 1, subjects.size()));
+            reports.push_back(report_on(subjects[i], hashes[i]));
+            console_.finish();
+            if (!reports.back().found.remark.empty()) fmt::print(stderr, "scree: {}\n", reports.back().found.remark);
+            if (table) print(gsdf_table_line(reports.back()));
+        }
+        if (!a_.figure.empty()) draw(reports.front(), table);
+        if (a_.json == "-") fmt::print("{}", gsdf_json(reports));
+        else if (!a_.json.empty()) write_text(a_.json, gsdf_json(reports));
+    }
+
+private:
+    static void print(const std::string& line)
+    {
+        fmt::print("{}\n", line);
+        std::fflush(stdout);
+    }
+
+    std::shared_ptr<const Exemplar> exemplar(const GsdfSubject& subject)
+    {
+        if (!subject.shape.has_mesh()) return nullptr;
+        if (!device_) device_.emplace();
+        return make_exemplar(*device_, subject.shape, subject.material, "scree grains gsdf", subject.name);
+    }
+
+    GsdfReport report_on(const GsdfSubject& subject, uint64_t hash)
+    {
+        const Stopwatch watch;
+        const GsdfSource source{hash, subject.material, [&] { return exemplar(subject); }};
+        const auto work = a_.again ? make_gsdf : find_gsdf;
+        GsdfReport report{subject, work(source, a_.gsdf, cache_folder(), console_.progress()), 0, a_.gsdf.error, {}};
+        report.seconds = watch.seconds();
+        const double error = report.found.gsdf->data().quality.density_error;
+        if (error > a_.gsdf.error && report.found.remark.empty()) {
+            report.found.remark = fmt::format("the scattering of '{}' is known to {:.2g} % and not to the {:g} % asked for", subject.name, 100 * error, 100 * a_.gsdf.error);
+        }
+        return report;
+    }
+
+    void draw(GsdfReport& report, bool table)
+    {
+        const std::shared_ptr<const Exemplar> shape = exemplar(report.subject);
+        const BruteForceMaps truth = brute_force_maps({shape.get(), report.subject.material}, a_.figure_paths, a_.gsdf.seed, console_.progress());
+        console_.finish();
+        const ScatteringMap map = map_of_gsdf(*report.found.gsdf);
+        report.figure = {a_.figure, truth.paths, map_errors(map, truth)};
+        const std::vector<std::string> lines = form_table(report.figure->errors, report.subject.name);
+        const std::string title = fmt::format("{}: error of the GSDF against {:.2g} paths traced through the grain", report.subject.name,
+                                              static_cast<double>(truth.paths) * 2 / 3);
+        draw_error_figure(map, truth.both, size_.width, size_.height, title, lines).write(a_.figure);
+        if (!table) return;
+        print("");
+        for (const std::string& line : lines) print(line);
+    }
+
+    const Arguments& a_;
+    FigureSize size_;
+    ConsoleProgress console_;
+    std::optional<EmbreeDevice> device_;
+};
+
+void add_options(CLI::App& command, Arguments& a)
+{
+    command.add_option("what", a.words, "Grains of the library, 'all' of them, 'sphere', or mesh files (.obj .ply .stl .off)")->required();
+    command.add_option("--material", a.subject.material, "lambert, dielectric or conductor (default: the library's, or a dielectric of index 1.5)");
+    command.add_option("--ior", a.subject.ior, "Refractive index of a dielectric")->check(CLI::Range(0.1, 10.0));
+    command.add_option("--roughness", a.subject.roughness, "Of a dielectric or conductor, 0 (smooth) to 1")->check(CLI::Range(0.0, 1.0));
+    command.add_option("--eta", a.subject.eta, "Of a conductor: its index, one number or red,green,blue")->delimiter(',')->expected(1)->check(CLI::NonNegativeNumber);
+    command.add_option("--k", a.subject.k, "Of a conductor: the index's imaginary part")->delimiter(',')->expected(1)->check(CLI::NonNegativeNumber);
+    command.add_option("--error", a.gsdf.error, "Mean relative error wanted of the density of directions (default 0.01)")->check(CLI::Range(1e-4, 1.0));
+    command.add_option("--seed", a.subject.seed, "Which individual of the library's grains")->check(CLI::NonNegativeNumber);
+    command.add_option("--triangles", a.subject.triangles, "Of the library's shapes, about (default: the type's)")
+        ->check(CLI::Range(least_shape_triangles, most_shape_triangles));
+    command.add_flag("--force", a.again, "Trace again what is in the cache");
+    command.add_option("--figure", a.figure, "Picture of the error maps of one grain to write (.png, ...), and a table of what simpler forms miss");
+    command.add_option("--size", a.size, "Of that picture, WIDTHxHEIGHT pixels (default 1600x1010)");
+    command.add_option("--figure-paths", a.figure_paths, "Through the grain, to compare with (default 12000000)")->check(CLI::Range(uint64_t{10'000}, uint64_t{1} << 36));
+    command.add_option("--json", a.json, "File to write everything to in numbers; - for standard output, without the table");
+    command.add_option("-t,--threads", a.threads, "Threads (default: all cores)")->check(CLI::Range(1, 4096));
+    command.add_flag("-q,--quiet", a.quiet, "No progress");
+}
+
+} // namespace
+
+void add_gsdf_command(CLI::App& grains)
+{
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = grains.add_subcommand("gsdf", "Find grains' scattering in the cache or trace it; draw the error maps of one");
+    add_options(*command, *arguments);
+    command->callback([arguments] {
+        std::optional<tbb::global_control> threads;
+        if (arguments->threads > 0) threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(arguments->threads));
+        try {
+            Command(*arguments).run();
+        } catch (const Cancelled&) {
+            throw CLI::RuntimeError(interrupted_status);
+        }
+    });
+}
+
+} // namespace scree
