@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <bit>
 
 namespace scree {
 
@@ -14,42 +13,39 @@ using Field = std::vector<double>; // strata * cells
 constexpr uint32_t strata = Gsdf::strata, cells = Gsdf::cells;
 constexpr int rows = Grid::rows, columns = Grid::columns;
 
-size_t at(uint32_t stratum, int row, int column)
-{
-    if (row < 0 || row >= rows) { // across a pole
-        row = row < 0 ? -1 - row : 2 * rows - 1 - row;
-        column += columns / 2;
-    }
-    return static_cast<size_t>(stratum) * cells + static_cast<size_t>(row * columns + (column + columns) % columns);
-}
-
-/// Columns of a row that count together, as they are narrower near the poles than rows are wide.
-int group_of(int row)
-{
-    const double sine = std::sin((row + 0.5) * Grid::row_width);
-    const int groups = std::clamp(static_cast<int>(std::bit_floor(static_cast<unsigned>(std::ceil(2 * columns * sine)))), 1, columns);
-    return columns / groups;
-}
+size_t at(uint32_t stratum, int row, int column) { return static_cast<size_t>(stratum) * cells + Grid::neighbour(row, column); }
 
 /// Density of a half by counting; `total` receives how many fell into each stratum.
 Field count_density(const DirectionCounts& counts, std::array<double, strata>& total)
 {
     Field density(counts.size());
     for (uint32_t s = 0; s < strata; ++s) {
+        const size_t begin = at(s, 0, 0);
         total[s] = 0;
-        for (uint32_t c = 0; c < cells; ++c) total[s] += static_cast<double>(counts[static_cast<size_t>(s) * cells + c]);
-        for (int row = 0; row < rows; ++row) {
-            const int group = group_of(row);
-            const double solid_angle = Grid::area(static_cast<uint32_t>(row * columns)) * group;
-            for (int first = 0; first < columns; first += group) {
-                double n = 0;
-                for (int i = 0; i < group; ++i) n += static_cast<double>(counts[at(s, row, first + i)]);
-                const double value = total[s] > 0 ? n / (total[s] * solid_angle) : 1 / (4 * pi);
-                for (int i = 0; i < group; ++i) density[at(s, row, first + i)] = value;
-            }
+        for (uint32_t c = 0; c < cells; ++c) total[s] += static_cast<double>(counts[begin + c]);
+        for (uint32_t c = 0; c < cells; ++c) {
+            density[begin + c] = total[s] > 0 ? static_cast<double>(counts[begin + c]) / (total[s] * Grid::area(c)) : 1 / (4 * pi);
         }
     }
     return density;
+}
+
+/// Near the poles, where columns are narrower than rows are wide, smooths along columns until they are not.
+void smooth_poles(Field& field)
+{
+    tbb::parallel_for(0u, strata, [&](uint32_t s) {
+        std::array<double, columns> values;
+        for (int row = 0; row < rows; ++row) {
+            const double narrow = 0.5 / std::sin((row + 0.5) * Grid::row_width); // against half the widest
+            for (int pass = 0; pass < std::min(64, static_cast<int>(narrow * narrow)); ++pass) {
+                for (int c = 0; c < columns; ++c) values[static_cast<size_t>(c)] = field[at(s, row, c)];
+                for (int c = 0; c < columns; ++c) {
+                    const double sides = values[static_cast<size_t>((c + columns - 1) % columns)] + values[static_cast<size_t>((c + 1) % columns)];
+                    field[at(s, row, c)] = 0.5 * values[static_cast<size_t>(c)] + 0.25 * sides;
+                }
+            }
+        }
+    });
 }
 
 /// One pass of the filter 1/4, 1/2, 1/4 along an axis: 0 rows, 1 columns, 2 strata.
@@ -103,6 +99,7 @@ Field smoothed(const Field& field, const Smoothing& how)
 {
     Field base = field;
     if (how.mirror) mirror(base);
+    if (how.poles) smooth_poles(base);
     if (how.passes == std::array<int, 3>{}) return base;
     Field result = filtered(base, how.passes);
     if (!how.twice) return result;
@@ -120,24 +117,27 @@ public:
         for (size_t half = 0; half < 2; ++half) density_[half] = count_density(halves[half], total_[half]);
         Field both(density_[0].size());
         for (size_t i = 0; i < both.size(); ++i) both[i] = 0.5 * (density_[0][i] + density_[1][i]);
+        smooth_poles(both);
         expected_ = filtered(both, {2, 2, 2});
         for (double& e : expected_) e += 1e-3 / (4 * pi); // what is hardly ever scattered into does not count
     }
 
     struct Verdict {
-        double half = 0; ///< squared error of a smoothed half
-        double full = 0; ///< of both halves together
+        double half = 0;  ///< squared error of a smoothed half
+        double full = 0;  ///< of both halves together
+        double spread = 0; ///< standard error of these estimates
     };
 
     Verdict judge(const Smoothing& how) const
     {
         const Field a = smoothed(density_[0], how), b = smoothed(density_[1], how);
         // What a half foretells is off from the other by its own error and by the other's noise, which is known: Poisson's.
-        double foretold = 0, noise = 0, difference = 0;
+        Verdict verdict;
+        std::array<double, strata> halves{};
         for (uint32_t s = 0; s < strata; ++s) {
             double sum = 0, own = 0, apart = 0;
             for (int row = 0; row < rows; ++row) {
-                const double area = Grid::area(static_cast<uint32_t>(row * columns)), grouped = area * group_of(row);
+                const double area = Grid::area(static_cast<uint32_t>(row * columns));
                 for (int column = 0; column < columns; ++column) {
                     const size_t i = at(s, row, column);
                     const double weight = area / expected_[i];
@@ -145,16 +145,17 @@ public:
                     sum += 0.5 * weight * (x * x + y * y);
                     apart += weight * z * z;
                     for (size_t half = 0; half < 2; ++half) {
-                        if (total_[half][s] > 0) own += 0.5 * weight * density_[half][i] / (total_[half][s] * grouped);
+                        if (total_[half][s] > 0) own += 0.5 * weight * density_[half][i] / (total_[half][s] * area);
                     }
                 }
             }
-            foretold += mass_[s] * sum;
-            noise += mass_[s] * own;
-            difference += mass_[s] * apart;
+            halves[s] = mass_[s] * (sum - own);
+            verdict.half += halves[s];
+            verdict.full += halves[s] - mass_[s] * apart / 4;
         }
-        const double half = foretold - noise;
-        return {half, half - difference / 4};
+        for (const double half : halves) verdict.spread += std::pow(half - verdict.half / strata, 2);
+        verdict.spread = std::sqrt(verdict.spread);
+        return verdict;
     }
 
     Field fit(const Smoothing& how) const
@@ -218,6 +219,9 @@ DensityFit fit_density(const std::array<DirectionCounts, 2>& halves, const std::
     Smoothing mirrored = fit.smoothing;
     mirrored.mirror = true;
     better(mirrored);
+    Smoothing at_poles = fit.smoothing;
+    at_poles.poles = true;
+    better(at_poles);
     for (bool any = true; any;) {
         any = false;
         const Smoothing from = fit.smoothing;
@@ -230,8 +234,9 @@ DensityFit fit_density(const std::array<DirectionCounts, 2>& halves, const std::
             }
         }
     }
-    // Of errors like a Gaussian's, the mean is sqrt(2 / pi) of the root mean square.
-    fit.error = std::sqrt(2 / pi * std::max(0.0, best.full));
+    // Of errors like a Gaussian's, the mean is sqrt(2 / pi) of the root mean square. The estimate has an error of its own, and
+    // the smallest of many is smaller than it should be.
+    fit.error = std::sqrt(2 / pi * (std::max(0.0, best.full) + best.spread));
     fit.density = keep_rows(judge.fit(fit.smoothing), judge.fit({}), stratum_mass);
     return fit;
 }

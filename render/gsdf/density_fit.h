@@ -16,12 +16,14 @@ struct Smoothing {
     std::array<int, 3> passes{}; ///< of a filter 1/4, 1/2, 1/4 along rows (polar angle), columns (azimuth) and strata
     bool twice = false;          ///< what the filter takes is filtered as well and added again (Tukey 1977): blurs less
     bool mirror = false;         ///< both sides of the plane of incidence count as one
+    bool poles = false;          ///< columns are smoothed where they are narrower than rows are wide
 };
 
 struct DensityFit {
     std::vector<float> density; ///< at the middles of cells, per solid angle, every stratum's masses sum to 1
     /// Mean relative error of the density over what is scattered, the integral of |found - true|, from noise and blur together:
-    /// estimated without knowing the truth, by how well each half foretells the other.
+    /// estimated without knowing the truth, by how well each half foretells the other, with the standard error of the
+    /// estimate on top. What varies within a cell or a stratum is not in it.
     double error = 0;
     Smoothing smoothing;
 };

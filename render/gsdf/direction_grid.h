@@ -30,6 +30,16 @@ struct DirectionGrid {
     {
         return direction((cell / columns + 0.5) * row_width, cell % columns * column_width);
     }
+    /// The cell at a row and column that may be one beyond the ends: across a pole lies the column opposite.
+    static uint32_t neighbour(int row, int column)
+    {
+        constexpr int row_count = rows, column_count = columns;
+        if (row < 0 || row >= row_count) {
+            row = row < 0 ? -1 - row : 2 * row_count - 1 - row;
+            column += column_count / 2;
+        }
+        return static_cast<uint32_t>(row * column_count + (column + column_count) % column_count);
+    }
     /// Solid angle of a cell.
     static double area(uint32_t cell)
     {

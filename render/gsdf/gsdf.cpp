@@ -1,5 +1,7 @@
 #include "render/gsdf/gsdf.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -8,17 +10,6 @@ namespace scree {
 namespace {
 
 using Grid = DirectionGrid;
-
-/// The cell at a row and column that may be one beyond the ends: across a pole lies the column opposite.
-uint32_t neighbour(int row, int column)
-{
-    constexpr int rows = Grid::rows, columns = Grid::columns;
-    if (row < 0 || row >= rows) {
-        row = row < 0 ? -1 - row : 2 * rows - 1 - row;
-        column += columns / 2;
-    }
-    return static_cast<uint32_t>(row * columns + (column + columns) % columns);
-}
 
 /// Tent weights of the neighbours around a place, in cells from the first cell's middle.
 struct Tent {
@@ -36,7 +27,7 @@ void integrate_cells(std::span<const float> density, std::span<float> mass)
     constexpr int rows = Grid::rows, columns = Grid::columns;
     const double h = 0.5 * Grid::row_width;
     const auto azimuth_mean = [&](int row, int column) {
-        return 0.125 * density[neighbour(row, column - 1)] + 0.75 * density[neighbour(row, column)] + 0.125 * density[neighbour(row, column + 1)];
+        return 0.125 * density[Grid::neighbour(row, column - 1)] + 0.75 * density[Grid::neighbour(row, column)] + 0.125 * density[Grid::neighbour(row, column + 1)];
     };
     for (int row = 0; row < rows; ++row) {
         const double middle = (row + 0.5) * Grid::row_width, sine = std::sin(middle), cosine = std::cos(middle);
@@ -131,7 +122,7 @@ double Gsdf::density(uint32_t stratum, const V3d& w) const
     const Tent row(angles.x / Grid::row_width), column(angles.y / Grid::column_width + 0.5);
     const float* values = data_.density.data() + index(stratum, 0);
     const auto across = [&](int r) {
-        const float low = values[neighbour(r, column.low)], high = values[neighbour(r, column.low + 1)];
+        const float low = values[Grid::neighbour(r, column.low)], high = values[Grid::neighbour(r, column.low + 1)];
         return low + column.fraction * (high - low);
     };
     const double low = across(row.low), interpolated = low + row.fraction * (across(row.low + 1) - low);
@@ -170,6 +161,15 @@ C3f Gsdf::weight(uint32_t number, const Material& material, double radius) const
     if (each != C3f(1)) weight *= C3f(std::pow(each.x, events), std::pow(each.y, events), std::pow(each.z, events));
     if (material.transmits() && !is_black(material.absorption)) weight *= exp(material.absorption * (-r.length * static_cast<float>(radius)));
     return weight;
+}
+
+std::string doubt_of(const GsdfQuality& quality, double wanted_error)
+{
+    if (static_cast<double>(quality.lost) > 1e-4 * static_cast<double>(quality.paths)) {
+        return fmt::format("{} of {} paths were lost in the mesh; is it closed, and free of self-intersections?", quality.lost, quality.paths);
+    }
+    if (quality.density_error <= wanted_error) return "";
+    return fmt::format("known to {:.2g} % and not to the {:g} % asked for", 100 * quality.density_error, 100 * wanted_error);
 }
 
 double Gsdf::mean_cosine() const

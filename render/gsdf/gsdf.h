@@ -6,6 +6,7 @@
 
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace scree {
@@ -34,6 +35,9 @@ struct GsdfQuality {
     double mean_cosine = 0, mean_cosine_error = 0; ///< of all scattered paths, with its standard error
     double seconds = 0;
 };
+
+/// What is to be said when a GSDF is not as good as it should be; empty if nothing.
+std::string doubt_of(const GsdfQuality& quality, double wanted_error);
 
 /// The scattering of a grain averaged over its rotations (grain-scattering distribution function, Müller et al. 2016, section 4).
 ///

@@ -9,6 +9,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace scree {
@@ -17,7 +18,7 @@ namespace {
 
 constexpr uint32_t batch_size = 4096;
 constexpr uint64_t recorded_batches = 128; // 2^19 paths
-constexpr uint32_t most_of_a_cell = 32;    // records
+constexpr uint32_t most_of_a_cell = 256;   // records
 
 /// A record and where it belongs.
 struct Scattered {
@@ -140,10 +141,11 @@ public:
         DensityFit fit;
         for (;;) {
             trace(wanted);
+            lend_to_empty_strata();
             fit = fit_density(counts_.directions, stratum_mass());
             if (fit.error <= options_.error || done_ >= most_batches) break;
-            // Noise falls as 1 / sqrt(n), and slower where less noise lets more detail through.
-            const double ratio = std::clamp(std::pow(fit.error / options_.error, 2) * 1.1, 1.25, 8.0);
+            // Noise falls as 1 / sqrt(n), and the estimate's own uncertainty faster.
+            const double ratio = std::clamp(std::pow(fit.error / options_.error, 1.6), 1.2, 2.5);
             wanted = std::min(most_batches, static_cast<uint64_t>(std::ceil(static_cast<double>(done_) * ratio)));
         }
         Gsdf::Data data;
@@ -170,6 +172,31 @@ private:
         if (progress_.cancelled()) throw Cancelled();
         for (const Counts& part : parts) counts_.add(part);
         done_ = batches;
+    }
+
+    /// A stratum that nothing was met in scatters as the nearest that has something: rays between the two ask for it.
+    void lend_to_empty_strata()
+    {
+        std::array<bool, Gsdf::strata> has{};
+        for (uint32_t s = 0; s < Gsdf::strata; ++s) {
+            const auto counted = [&](const DirectionCounts& counts) {
+                const auto begin = counts.begin() + static_cast<std::ptrdiff_t>(s) * Gsdf::cells;
+                return std::any_of(begin, begin + Gsdf::cells, [](uint64_t n) { return n > 0; });
+            };
+            has[s] = counted(counts_.directions[0]) && counted(counts_.directions[1]);
+        }
+        for (uint32_t s = 0; s < Gsdf::strata; ++s) {
+            lender_[s] = s;
+            for (uint32_t away = 1; away < Gsdf::strata && !has[lender_[s]]; ++away) {
+                if (s >= away && has[s - away]) lender_[s] = s - away;
+                else if (s + away < Gsdf::strata && has[s + away]) lender_[s] = s + away;
+            }
+            if (lender_[s] == s) continue;
+            for (DirectionCounts& counts : counts_.directions) {
+                const auto from = counts.begin() + static_cast<std::ptrdiff_t>(lender_[s]) * Gsdf::cells;
+                std::copy(from, from + Gsdf::cells, counts.begin() + static_cast<std::ptrdiff_t>(s) * Gsdf::cells);
+            }
+        }
     }
 
     std::vector<float> alpha0() const
@@ -209,14 +236,14 @@ private:
         const bool weighted = body_.material.kind == MaterialKind::conductor;
         data.first.assign(1, 0);
         for (uint32_t s = 0; s < Gsdf::strata; ++s) {
-            const size_t begin = static_cast<size_t>(s) * Gsdf::cells;
+            const size_t begin = static_cast<size_t>(s) * Gsdf::cells, lent = static_cast<size_t>(lender_[s]) * Gsdf::cells;
             for (uint32_t c = 0; c < Gsdf::cells; ++c) {
-                for (const Scattered* found : of_cell[begin + c]) {
+                for (const Scattered* found : of_cell[lent + c]) {
                     data.records.push_back(found->record);
                     if (weighted) data.weights.push_back(found->weight);
                 }
-                if (of_cell[begin + c].empty() && data.density[begin + c] > 0) {
-                    const Scattered* near = nearest(of_cell, s, c);
+                if (of_cell[lent + c].empty() && data.density[begin + c] > 0) {
+                    const Scattered* near = nearest(of_cell, lender_[s], c);
                     const V3d centre = DirectionGrid::centre(c);
                     data.records.push_back(near ? turned(near->record, centre) : straight_back(centre));
                     if (weighted) data.weights.push_back(near ? near->weight : C3f(1));
@@ -242,7 +269,7 @@ private:
         }
         return best;
     }
-    /// For a stratum in which nothing was ever met: no ray will ask.
+    /// For a grain that no path has met.
     static GsdfRecord straight_back(const V3d& w) { return {PackedDirection(w), PackedDirection(w), 0, 1}; }
 
     GsdfQuality quality(double error) const
@@ -263,6 +290,7 @@ private:
     Counts counts_;
     std::vector<std::vector<Scattered>> recorded_; // by batch
     uint64_t done_ = 0;                            // batches
+    std::array<uint32_t, Gsdf::strata> lender_{};  // of each stratum: itself, if it has anything
 };
 
 } // namespace

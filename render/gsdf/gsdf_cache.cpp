@@ -30,11 +30,14 @@ std::filesystem::path cache_folder()
     return {};
 }
 
-uint64_t gsdf_key(const GsdfSource& source, uint64_t seed)
+uint64_t gsdf_key(const GsdfSource& source, const GsdfOptions& options)
 {
     const Material& m = source.material;
-    uint64_t key = mix64(mix64(source.shape) ^ seed);
+    uint64_t key = mix64(source.shape);
     const auto add = [&](const auto& value) { key = hash_bytes(&value, sizeof value, key); };
+    add(options.seed);
+    add(options.error);
+    add(options.most_paths);
     add(m.kind);
     if (m.kind != MaterialKind::lambert) add(m.alpha);
     if (m.kind == MaterialKind::dielectric) add(m.ior);
@@ -45,33 +48,31 @@ uint64_t gsdf_key(const GsdfSource& source, uint64_t seed)
     return key;
 }
 
-bool is_gsdf_stored(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder)
+FoundGsdf stored_gsdf(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder)
 {
+    FoundGsdf found;
+    if (folder.empty()) return found;
+    const uint64_t key = gsdf_key(source, options);
+    found.file = file_of(key, folder);
     std::error_code none;
-    return !folder.empty() && std::filesystem::exists(file_of(gsdf_key(source, options.seed), folder), none);
+    if (!std::filesystem::exists(found.file, none)) return found;
+    try {
+        StoredGsdf stored = read_gsdf(found.file);
+        if (stored.tag.key == key) found.gsdf = std::move(stored.gsdf);
+        else found.remark = fmt::format("{} was of another grain and is made again", found.file.string());
+    } catch (const InputError& error) {
+        found.remark = fmt::format("{}: {}; it is made again", error.place(), error.found());
+    }
+    return found;
 }
 
 FoundGsdf find_gsdf(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder, const Progress& progress)
 {
-    const uint64_t key = gsdf_key(source, options.seed);
-    const std::filesystem::path file = folder.empty() ? folder : file_of(key, folder);
-    std::string remark;
-    std::error_code none;
-    if (!folder.empty() && std::filesystem::exists(file, none)) {
-        try {
-            StoredGsdf stored = read_gsdf(file);
-            if (stored.tag.key != key) {
-                remark = fmt::format("{} was of another grain and is made again", file.string());
-            } else if (stored.gsdf->data().quality.density_error <= options.error || stored.tag.error <= options.error) {
-                return {std::move(stored.gsdf), false, "", file};
-            }
-        } catch (const InputError& error) {
-            remark = fmt::format("{}: {}; it is made again", error.place(), error.found());
-        }
-    }
-    FoundGsdf found = make_gsdf(source, options, folder, progress);
-    if (found.remark.empty()) found.remark = remark;
-    return found;
+    FoundGsdf stored = stored_gsdf(source, options, folder);
+    if (stored.gsdf) return stored;
+    FoundGsdf made = make_gsdf(source, options, folder, progress);
+    if (made.remark.empty()) made.remark = stored.remark;
+    return made;
 }
 
 FoundGsdf make_gsdf(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder, const Progress& progress)
@@ -81,7 +82,7 @@ FoundGsdf make_gsdf(const GsdfSource& source, const GsdfOptions& options, const 
     found.gsdf = build_gsdf({exemplar.get(), source.material}, options, progress);
     found.computed = true;
     if (folder.empty()) return found;
-    const uint64_t key = gsdf_key(source, options.seed);
+    const uint64_t key = gsdf_key(source, options);
     try {
         std::error_code none;
         std::filesystem::create_directories(folder, none);

@@ -26,14 +26,15 @@ struct FoundGsdf {
 /// The folder of precomputed tables: $SCREE_CACHE, else $XDG_CACHE_HOME/scree, else ~/.cache/scree; empty when none is set.
 std::filesystem::path cache_folder();
 
-/// Names what decides a GSDF: shape, what of the material matters, and seed.
-uint64_t gsdf_key(const GsdfSource& source, uint64_t seed);
+/// Names what decides a GSDF, to the bit: shape, what of the material matters, and options. So a picture does not depend on what
+/// else a cache holds.
+uint64_t gsdf_key(const GsdfSource& source, const GsdfOptions& options);
 
-/// Whether `find_gsdf` would find it (by its file's name alone).
-bool is_gsdf_stored(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder);
+/// The GSDF if it is in `folder`; else none, and perhaps a remark.
+FoundGsdf stored_gsdf(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder);
 
-/// The GSDF from `folder` if one of at least the wanted quality is there, else made and kept there. A damaged or outdated
-/// file is made again. Without a folder, or when it cannot be written, it is made for this run only.
+/// The GSDF from `folder`, else made and kept there. A damaged or outdated file is made again. Without a folder, or when it
+/// cannot be written, it is made for this run only.
 FoundGsdf find_gsdf(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder, const Progress& progress = {});
 
 /// The GSDF made anew and kept in `folder`, whatever is there.

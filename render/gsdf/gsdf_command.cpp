@@ -121,10 +121,8 @@ private:
         const auto work = a_.again ? make_gsdf : find_gsdf;
         GsdfReport report{subject, work(source, a_.gsdf, cache_folder(), console_.progress()), 0, a_.gsdf.error, {}};
         report.seconds = watch.seconds();
-        const double error = report.found.gsdf->data().quality.density_error;
-        if (error > a_.gsdf.error && report.found.remark.empty()) {
-            report.found.remark = fmt::format("the scattering of '{}' is known to {:.2g} % and not to the {:g} % asked for", subject.name, 100 * error, 100 * a_.gsdf.error);
-        }
+        const std::string doubt = doubt_of(report.found.gsdf->data().quality, a_.gsdf.error);
+        if (!doubt.empty() && report.found.remark.empty()) report.found.remark = fmt::format("the scattering of '{}': {}", subject.name, doubt);
         return report;
     }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 
@@ -17,7 +18,7 @@ static_assert(std::endian::native == std::endian::little, "the file's numbers ar
 static_assert(sizeof(GsdfRecord) == 16 && sizeof(C3f) == 12);
 
 constexpr std::array<char, 8> magic{'S', 'C', 'R', 'E', 'E', 'G', 'S', 'D'};
-constexpr uint32_t version = 1; // also of what the numbers mean: count up when any of that changes
+constexpr uint32_t version = 2; // also of what the numbers mean: count up when any of that changes
 
 /// What a file begins with. Then alpha0, density, first, records, weights follow as they lie in memory.
 struct Header {
@@ -95,7 +96,14 @@ StoredGsdf read_gsdf(const std::filesystem::path& file)
     for_each_part(data, [&](void* bytes, size_t count) { stream.read(static_cast<char*>(bytes), static_cast<std::streamsize>(count)); });
     if (!stream) throw refuse("a file that ends early");
     if (checksum_of(header, data) != header.checksum) throw refuse("a damaged file: its checksum is wrong");
-    if (!std::ranges::is_sorted(data.first) || data.first.back() != header.records) throw refuse("a damaged file: its records are not in order");
+    if (!std::ranges::is_sorted(data.first) || data.first.front() != 0 || data.first.back() != header.records) {
+        throw refuse("a damaged file: its records are not in order");
+    }
+    for (size_t i = 0; i < all; ++i) {
+        if (!(data.density[i] >= 0 && std::isfinite(data.density[i])) || (data.density[i] > 0 && data.first[i] == data.first[i + 1])) {
+            throw refuse("a damaged file: a direction without a density or without a record");
+        }
+    }
     return {std::make_shared<const Gsdf>(std::move(data)), header.tag};
 }
 

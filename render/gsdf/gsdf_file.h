@@ -9,7 +9,7 @@ namespace scree {
 
 /// What a stored GSDF is of and how well it was wanted.
 struct GsdfTag {
-    uint64_t key = 0;  ///< of shape, material and seed; see gsdf_key
+    uint64_t key = 0;  ///< see gsdf_key
     double error = 0;  ///< that was asked for; what was reached stands in its quality
 };
 

@@ -13,7 +13,7 @@ PathResult Path::run(V3d o, V3d d, std::vector<PathVertex>* trail)
     while (alive) {
         const V3d start = o_, direction = d_;
         const bool inside = is_inside();
-        const Hit hit = inside ? tracer_.intersect_inside(grain_, o_, d_, from_) : tracer_.intersect(o_, d_, from_, detail());
+        const Hit hit = inside ? tracer_.intersect_inside(grain_, o_, d_, from_) : tracer_.intersect(o_, d_, from_, detail(), beyond_);
         ++result_.segments;
         if (result_.segments % 65536 == 0 && options_.stop && options_.stop()) {
             result_.stopped = true;
@@ -28,12 +28,17 @@ PathResult Path::run(V3d o, V3d d, std::vector<PathVertex>* trail)
 bool Path::handle(const Hit& hit)
 {
     if (hit.place.kind == HitKind::none) return handle_miss();
+    const bool is_proxy = hit.place.kind == HitKind::grain && hit.place.triangle == no_triangle && !is_inside() && detail() == GrainDetail::proxy;
+    if (is_proxy && misses_proxy(hit)) {
+        beyond_ = hit.t; // on along the same ray
+        return true;
+    }
+    beyond_ = 0;
     attenuate(is_inside() ? &material_of(grain_) : surrounding_, hit.t);
     if (hit.place.kind == HitKind::light) {
         add_light(hit);
         return false;
     }
-    const bool is_proxy = hit.place.kind == HitKind::grain && hit.place.triangle == no_triangle && !is_inside() && detail() == GrainDetail::proxy;
     return is_proxy ? handle_proxy(hit) : handle_interface(hit);
 }
 
@@ -86,7 +91,6 @@ bool Path::handle_interface(const Hit& hit)
     d_ = frame.to_world(sample.wi).normalized();
     from_ = hit.place;
     last_ = {material.is_delta(), sample.pdf, o_};
-    travelled_ = 0;
     return true;
 }
 
@@ -111,7 +115,7 @@ void Path::note_first(const Hit& hit, const Material& material)
     first.hit = true;
     first.albedo = material.kind == MaterialKind::lambert ? material.reflectance : material.tint;
     first.normal = V3f(hit.normal);
-    first.depth = travelled_ + hit.t;
+    first.depth = hit.t;
     if (hit.place.kind == HitKind::grain) {
         first.type = hit.place.type;
         first.id = world_.id(hit.place.index);
@@ -174,7 +178,7 @@ void Path::add_infinite_lights()
 void Path::add_light(const Hit& hit)
 {
     const auto light = static_cast<uint32_t>(hit.place.index);
-    const double pdf = found_pdf(light, travelled_ + hit.t);
+    const double pdf = found_pdf(light, hit.t);
     result_.radiance += weight_ * world_.lights.emitted(light) * static_cast<float>(found_weight(pdf));
 }
 

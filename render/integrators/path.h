@@ -42,6 +42,7 @@ private:
     bool handle_miss();
     bool handle_interface(const Hit& hit);
     bool handle_proxy(const Hit& hit);
+    bool misses_proxy(const Hit& hit);
 
     /// Russian roulette: kills with the weight's largest channel, and only what has lost some.
     bool survives();
@@ -50,7 +51,7 @@ private:
 
     void add_direct_light(const Hit& hit, const Material& material, const Frame& frame, const V3d& wo);
     void add_proxy_light(const Hit& hit, const Encounter& encounter, uint32_t stratum);
-    /// A light's sample that `arriving` reaches the path with, scattered by `f` (per solid angle, over the light's density).
+    /// Adds what a light's sample brings over `distance`, scattered by f (per solid angle) and weighed against scatter_pdf.
     void add_light_sample(const LightSample& light, double distance, const C3f& f, double scatter_pdf, double visibility);
     /// Weight of light that scattering found, against the chance that sampling the light had of it.
     double found_weight(double light_pdf) const;
@@ -71,7 +72,7 @@ private:
     const Material* surrounding_ = nullptr; // of the dielectric surface the path is inside of, outside grains
     C3f weight_{1};
     Scattering last_;
-    double travelled_ = 0;     // since the last scattering, through proxies that were missed
+    double beyond_ = 0;        // along the ray: where the last of the proxies was met that it missed
     uint32_t depth_ = 0;
     PathResult result_;
 };

@@ -1,9 +1,26 @@
 // Proxy path tracing (Müller et al. 2016, algorithm 1): a grain's bounding sphere stands for the grain averaged over rotations.
-// Where the paper passes a missed grain along 2 (w_i . w_o) w_o, that is the chord 2 (n_o . w_o) w_o.
+// A ray that misses the grain simply goes on, and meets what else is in the sphere (the paper moves it to the far side, by
+// 2 (w_i . w_o) w_o in print, which should be the chord 2 (n_o . w_o) w_o).
 
 #include "render/integrators/path.h"
 
 namespace scree {
+
+namespace {
+
+/// About how far a recorded path went through the bounding sphere, but not through the grain in it.
+double length_outside(const V3d& entry, const V3d& exit, const GsdfRecord& record, double radius)
+{
+    return std::max(0.0, (exit - entry).length() - record.length * radius);
+}
+
+} // namespace
+
+bool Path::misses_proxy(const Hit& hit)
+{
+    const Gsdf& gsdf = *world_.types[hit.place.type].gsdf;
+    return !gsdf.always_met() && sampler_.next() < gsdf.alpha0(Encounter(hit.normal, d_).q);
+}
 
 bool Path::handle_proxy(const Hit& hit)
 {
@@ -12,14 +29,6 @@ bool Path::handle_proxy(const Hit& hit)
     const Gsdf& gsdf = *type.gsdf;
     const Encounter encounter(hit.normal, d_);
 
-    if (!gsdf.always_met() && sampler_.next() < gsdf.alpha0(encounter.q)) {
-        const double chord = 2 * encounter.cos_beta() * sphere.radius;
-        attenuate(surrounding_, chord);
-        o_ = hit.point + chord * d_;
-        from_ = hit.place;
-        travelled_ += hit.t + chord;
-        return true;
-    }
     if (is_cut()) return false;
     if (!result_.first.hit && depth_ == 1) note_first(hit, type.material);
 
@@ -32,7 +41,7 @@ bool Path::handle_proxy(const Hit& hit)
     weight_ *= gsdf.weight(number, type.material, sphere.radius);
     if (!survives()) return false;
     const V3d exit = sphere.centre + sphere.radius * encounter.to_world(record.point.unpack());
-    travelled_ = 0;
+    attenuate(surrounding_, length_outside(hit.point, exit, record, sphere.radius));
     if (const Hit between = tracer_.surface_between(hit.point, exit); between.place.kind == HitKind::surface) {
         // A surface cuts through the sphere: the path has it before it.
         d_ = (exit - hit.point).normalized();
@@ -61,7 +70,7 @@ void Path::add_proxy_light(const Hit& hit, const Encounter& encounter, uint32_t 
     if (!(density > 0)) return;
     const uint32_t cell = DirectionGrid::cell(DirectionGrid::angles(w));
     const uint32_t number = gsdf.pick(stratum, cell, sampler_.next());
-    const C3f kept = gsdf.weight(number, type.material, sphere.radius);
+    C3f kept = gsdf.weight(number, type.material, sphere.radius);
     if (is_black(kept)) return;
     const V3d exit = sphere.centre + sphere.radius * encounter.to_world(gsdf.record(number).point.unpack());
     double distance = light.distance;
@@ -69,6 +78,7 @@ void Path::add_proxy_light(const Hit& hit, const Encounter& encounter, uint32_t 
         distance = world_.lights.meet(light.light, exit, light.direction);
         if (!std::isfinite(distance)) return;
     }
+    if (surrounding_) kept *= transmittance(*surrounding_, length_outside(hit.point, exit, gsdf.record(number), sphere.radius));
     ++result_.shadow_rays;
     double visibility = tracer_.visibility(exit, light.direction, distance, hit.place, light.light, GrainDetail::proxy);
     if (visibility > 0 && tracer_.surface_between(hit.point, exit).place.kind == HitKind::surface) visibility = 0;

@@ -16,6 +16,7 @@ struct FillTracer::Visit {
     FillCell cell;
     uint64_t number = 0;
     uint32_t variant = 0;
+    double begin = 0, until = 0; // the part of the ray that is visited, tile units; Embree's is a little longer at both ends
     double start = 0;            // of Embree's ray, tile units along the ray
     double end = 0;              // of Embree's ray, from its start
     bool starts_here = false;    // the ray starts in this cell, where it may be within a mesh grain's sphere
@@ -78,7 +79,10 @@ void fill_filter(const RTCFilterFunctionNArguments* args)
     } else {
         // A convex grain is not met again by the ray that leaves it.
         if (query.from.kind == HitKind::grain && query.from.index == id) return;
-        if (!enters || !query.offer_sphere(place, sphere, t)) return;
+        if (!enters) return;
+        // What is entered in another visit weakens light there.
+        if (query.attenuates && !(t * tracer.rate_ >= visit.begin && t * tracer.rate_ < visit.until)) return;
+        if (!query.offer_sphere(place, sphere, t)) return;
     }
     ray->tfar = visit.embree_end();
     args->valid[0] = -1;
@@ -235,10 +239,10 @@ bool FillTracer::reaches_domain(const TracerQuery& query, double& s) const
 
 void FillTracer::walk(TracerQuery& query, bool any) const
 {
-    double s = 0;
+    double s = query.beyond * rate_;
     Inside inside;
-    // On a grain of the fill the ray starts inside.
-    inside.goes_on = query.from.kind == HitKind::grain;
+    // On a grain of the fill the ray starts inside, as it does where one was missed.
+    inside.goes_on = query.from.kind == HitKind::grain || query.beyond > 0;
     if (!inside.goes_on && !reaches_domain(query, s)) return;
 
     const double unit = world_.space.world_length(1);
@@ -294,6 +298,8 @@ void FillTracer::walk(TracerQuery& query, bool any) const
 void FillTracer::visit(Visit& visit, double begin, double end, bool any) const
 {
     visit.variant = fill_.variant(visit.number);
+    visit.begin = begin;
+    visit.until = end;
     visit.start = begin - step_back_;
     visit.end = end + margin_ - visit.start;
     visit.starts_here = begin == 0 && reach_ > 0;

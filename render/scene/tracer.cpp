@@ -102,6 +102,7 @@ bool TracerQuery::offer(const Place& what, double t)
 
 bool TracerQuery::offer_sphere(const Place& grain, const GrainSphere& sphere, double t)
 {
+    if (t <= beyond) return false;
     if (attenuates && t < best) {
         const V3d to = sphere.centre - o;
         const double along = to.dot(d);
@@ -155,7 +156,8 @@ void tracer_filter(const RTCFilterFunctionNArguments* args)
     const uint32_t grain = hit->primID + (hit->geomID == Tracer::Impl::mesh_id ? world.grains.analytic_count : 0);
     if (hit->geomID == Tracer::Impl::analytic_id || (hit->geomID == Tracer::Impl::mesh_id && query.is_proxy(grain))) {
         const bool far_face = hit->Ng_x * query.d.x + hit->Ng_y * query.d.y + hit->Ng_z * query.d.z > 0;
-        if (far_face && world.grains.margin.complete) return;
+        // The far face follows the near one: light is not to be weakened twice.
+        if (far_face && (world.grains.margin.complete || query.attenuates)) return;
         // A convex grain is not met again by the ray that leaves it.
         if (query.from.kind == HitKind::grain && query.from.index == grain) return;
         const GrainStore& grains = world.grains;
@@ -221,7 +223,8 @@ bool approach(const Tracer::Impl& tracer, TracerQuery& query)
 {
     const double radius = tracer.radius;
     query.reach = tracer.mesh_reach;
-    query.advanced = -tracer.world.margin().step_back;
+    query.advanced = query.beyond - tracer.world.margin().step_back;
+    if (query.beyond > 0) return true;
     if (query.o.length2() <= 4 * radius * radius) return true;
     query.reach = 0; // no sphere is around a start this far out
     double t = 0;
@@ -232,10 +235,11 @@ bool approach(const Tracer::Impl& tracer, TracerQuery& query)
 
 } // namespace
 
-Hit Tracer::intersect(const V3d& o, const V3d& d, const Place& from, GrainDetail detail) const
+Hit Tracer::intersect(const V3d& o, const V3d& d, const Place& from, GrainDetail detail, double beyond) const
 {
     TracerQuery query(*impl_, o, d, from);
     query.proxies = detail == GrainDetail::proxy;
+    query.beyond = beyond;
     if (!approach(*impl_, query)) return {};
     const V3d start = float_start(impl_->world, o, d, from) + query.advanced * d;
     RTCRayHit ray = make_ray(start, d, query.embree_end());

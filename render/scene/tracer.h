@@ -41,8 +41,8 @@ public:
     ~Tracer();
 
     /// Nearest thing from outside all grains; kind none if there is none. Proxies are met where their sphere is entered; a grain
-    /// whose triangle the ray starts on is as it is.
-    Hit intersect(const V3d& o, const V3d& d, const Place& from, GrainDetail detail = GrainDetail::as_is) const;
+    /// whose triangle the ray starts on is as it is. beyond: proxies up to there have been met and missed.
+    Hit intersect(const V3d& o, const V3d& d, const Place& from, GrainDetail detail = GrainDetail::as_is, double beyond = 0) const;
     /// Nearest way out of `grain` from inside it, or a surface standing in it. Kind none: lost to rounding, treat as outside.
     Hit intersect_inside(const Place& grain, const V3d& o, const V3d& d, const Place& from) const;
     /// Whether anything stands between o and o + tmax d; `target` is the light aimed at, which does not count.

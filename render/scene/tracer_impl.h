@@ -56,6 +56,7 @@ struct TracerQuery {
     bool proxies = false;        // grains count as their bounding spheres
     bool attenuates = false;     // proxies let light through, and do not count when they let all of it
     double passed = 1;           // by the proxies so far
+    double beyond = 0;           // proxies up to there do not count
     double best = std::numeric_limits<double>::infinity(); // from o; nothing farther is accepted
     Place place;                 // of the nearest
     float u = 0, v = 0;          // on its triangle

@@ -42,7 +42,7 @@ void TypeBuilder::add_exemplar(const GrainTypeDescription& type, Shape& shape, c
     request.parts.push_back({part, true, fmt::format("{} triangles{}", shape.exemplar->triangle_count(), source), watch.seconds(), shape.exemplar->bytes()});
 }
 
-void TypeBuilder::add_gsdf(const GrainTypeDescription& type, Shape& shape, const TypeRequest& request) const
+void TypeBuilder::add_gsdf(const GrainTypeDescription& type, Shape& shape, const TypeRequest& request)
 {
     const std::string part = "gsdf '" + type.name + "'";
     if (!integrator_.has_proxies()) {
@@ -58,24 +58,26 @@ void TypeBuilder::add_gsdf(const GrainTypeDescription& type, Shape& shape, const
         };
     }
     const Stopwatch watch;
-    std::string how = "made for an earlier frame";
-    if (!shape.gsdf && request.precompute == Precompute::never && !is_gsdf_stored(source, options, cache_folder())) {
-        request.parts.push_back({part, true, fmt::format("to be traced to an error of {:g} %; not in the cache", 100 * options.error)});
-        return;
-    }
-    if (!shape.gsdf) {
-        const FoundGsdf found = find_gsdf(source, options, cache_folder(), request.progress);
+    std::shared_ptr<const Gsdf>& gsdf = gsdfs_[gsdf_key(source, options)]; // types that differ in colour only share one
+    std::string how = "made already, for another type or frame";
+    if (!gsdf) {
+        const bool now = request.precompute == Precompute::now;
+        const FoundGsdf found = now ? find_gsdf(source, options, cache_folder(), request.progress) : stored_gsdf(source, options, cache_folder());
         if (!found.remark.empty()) request.warnings.push_back(found.remark);
-        shape.gsdf = found.gsdf;
-        const GsdfQuality& quality = found.gsdf->data().quality;
+        if (!found.gsdf) {
+            request.parts.push_back({part, true, fmt::format("to be traced to an error of {:g} %; not in the cache", 100 * options.error)});
+            return;
+        }
+        gsdf = found.gsdf;
+        const GsdfQuality& quality = gsdf->data().quality;
         how = fmt::format("{}, {:.2g} paths, error {:.2g} %", found.computed ? "traced" : "from the cache", static_cast<double>(quality.paths),
                           100 * quality.density_error);
-        if (found.computed && quality.density_error > options.error) {
-            request.warnings.push_back(fmt::format("the scattering of '{}' is known to {:.2g} % and not to the {:g} % asked for", type.name,
-                                                   100 * quality.density_error, 100 * options.error));
+        if (const std::string doubt = doubt_of(quality, options.error); !doubt.empty()) {
+            request.warnings.push_back(fmt::format("the scattering of '{}': {}", type.name, doubt));
         }
     }
-    request.parts.push_back({part, true, how, watch.seconds(), shape.gsdf->bytes()});
+    shape.gsdf = gsdf;
+    request.parts.push_back({part, true, how, watch.seconds(), gsdf->bytes()});
 }
 
 uint64_t TypeBuilder::build(const std::vector<GrainTypeDescription>& types, const std::vector<uint8_t>& used, const TypeRequest& request,

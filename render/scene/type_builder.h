@@ -51,11 +51,12 @@ private:
     bool has_exemplars() const { return !integrator_.has_proxies() || integrator_.explicit_grains > 0; }
     std::shared_ptr<const Exemplar> make_exemplar(const GrainTypeDescription& type) const;
     void add_exemplar(const GrainTypeDescription& type, Shape& shape, const TypeRequest& request) const;
-    void add_gsdf(const GrainTypeDescription& type, Shape& shape, const TypeRequest& request) const;
+    void add_gsdf(const GrainTypeDescription& type, Shape& shape, const TypeRequest& request);
 
     std::shared_ptr<const EmbreeDevice> device_;
     IntegratorDescription integrator_;
     std::map<std::string, Shape> shapes_; ///< by grain type
+    std::map<uint64_t, std::shared_ptr<const Gsdf>> gsdfs_; ///< by gsdf_key
 };
 
 } // namespace scree

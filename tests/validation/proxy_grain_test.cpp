@@ -100,20 +100,20 @@ TEST_P(GrainUnderSun, ProxyIsTheMeanGrain)
     std::shared_ptr<const Exemplar> body;
     const auto device = std::make_shared<EmbreeDevice>();
     if (grain.default_triangles > 0) body = std::make_shared<Exemplar>(*device, make_grain_shape(grain, {0, 2000, {}}, "test"), "test");
-    const auto gsdf = build_gsdf({body.get(), grain.material}, {0.05});
+    const auto gsdf = build_gsdf({body.get(), grain.material}, {0.08});
     EXPECT_EQ(gsdf->data().quality.lost, 0u);
     Light sky;
     std::vector<std::unique_ptr<TestScene>> in_sky, under_sun;
     for (uint32_t i = 0; i < rotations; ++i) in_sky.push_back(grain_under(sky, grain, body, gsdf, i));
     for (uint32_t i = 0; i < 16; ++i) under_sun.push_back(grain_under(sun(V3d(0, 0, 1), 2 * half_width), grain, body, gsdf, i));
-    const auto as_is = radiance_as_is(in_sky, 3000);
+    const auto as_is = radiance_as_is(in_sky, 1000);
     double worst = 0;
     for (size_t k = 0; k < angles.size(); ++k) {
         const double a = angles[k] * pi / 180;
         const V3d d(std::sin(a), 0, std::cos(a)); // turned by a, towards the sun
         PathOptions options;
         options.explicit_grains = 0;
-        constexpr uint32_t paths = 3000;
+        constexpr uint32_t paths = 1500;
         std::vector<double> sums(under_sun.size());
         look(under_sun, d, paths, options, 2, [&](size_t i, const PathResult& path, const PathVertex&) { sums[i] += path.radiance.y; });
         const Estimate proxy = over(sums, paths);
