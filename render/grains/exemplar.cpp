@@ -37,30 +37,33 @@ void keep_wanted_faces(const RTCFilterFunctionNArguments* args)
 } // namespace
 
 Exemplar::Exemplar(const EmbreeDevice& device, const TriangleMesh& mesh, const std::string& place)
-    : triangles_(mesh.triangles)
 {
     const auto [centre, radius] = smallest_enclosing_sphere(mesh.positions);
     if (!(radius > 0)) throw InputError(place, "a mesh without extent", "a shape of some size");
     // A hair inside, so that rounding to float leaves no vertex outside the unit sphere.
     const double scale = (1 - 0x1p-22) / radius;
-    positions_.reserve(mesh.positions.size());
-    for (const V3d& p : mesh.positions) positions_.emplace_back((p - centre) * scale);
+    std::vector<V3f> positions;
+    positions.reserve(mesh.positions.size());
+    for (const V3d& p : mesh.positions) positions.emplace_back((p - centre) * scale);
 
     closed_ = is_closed_and_oriented(mesh);
-    if (closed_ && signed_volume(mesh) < 0) {
-        for (auto& triangle : triangles_) std::swap(triangle[1], triangle[2]);
-    }
+    const bool inside_out = closed_ && signed_volume(mesh) < 0;
 
     scene_ = rtcNewScene(device.get());
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
     RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<V3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                               sizeof(V3f), positions_.size()));
+                                                               sizeof(V3f), positions.size()));
     auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                   3 * sizeof(uint32_t), triangles_.size()));
+                                                                   3 * sizeof(uint32_t), mesh.triangles.size()));
     device.check("building an exemplar");
-    std::copy(positions_.begin(), positions_.end(), vertices);
-    for (size_t i = 0; i < triangles_.size(); ++i) std::copy(triangles_[i].begin(), triangles_[i].end(), indices + 3 * i);
+    std::copy(positions.begin(), positions.end(), vertices);
+    corners_.reserve(mesh.triangles.size());
+    for (auto [a, b, c] : mesh.triangles) {
+        if (inside_out) std::swap(b, c);
+        indices = std::ranges::copy(std::array{a, b, c}, indices).out;
+        corners_.push_back({positions[a], positions[b], positions[c]});
+    }
     rtcSetGeometryIntersectFilterFunction(geometry, keep_wanted_faces);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_, geometry);
@@ -76,8 +79,8 @@ Exemplar::~Exemplar()
 
 std::array<V3d, 3> Exemplar::corners(uint32_t triangle) const
 {
-    const auto& t = triangles_[triangle];
-    return {V3d(positions_[t[0]]), V3d(positions_[t[1]]), V3d(positions_[t[2]])};
+    const auto& [a, b, c] = corners_[triangle];
+    return {V3d(a), V3d(b), V3d(c)};
 }
 
 V3d Exemplar::point(const ExemplarHit& hit) const
@@ -93,7 +96,7 @@ V3d Exemplar::normal(uint32_t triangle) const
 
 uint64_t Exemplar::bytes() const
 {
-    return positions_.size() * sizeof(V3f) + triangles_.size() * sizeof(triangles_[0]);
+    return corners_.size() * sizeof(corners_[0]);
 }
 
 bool Exemplar::intersect(const V3d& o, const V3d& d, double rounding, double tmax, Facing facing, uint32_t skip,

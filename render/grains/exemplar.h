@@ -48,12 +48,11 @@ public:
     std::array<V3d, 3> corners(uint32_t triangle) const;
 
     bool closed() const { return closed_; }
-    uint64_t triangle_count() const { return triangles_.size(); }
+    uint64_t triangle_count() const { return corners_.size(); }
     uint64_t bytes() const;
 
 private:
-    std::vector<V3f> positions_;
-    std::vector<std::array<uint32_t, 3>> triangles_;
+    std::vector<std::array<V3f, 3>> corners_; // of each triangle: asked for at random, so beside each other
     bool closed_ = false;
     RTCSceneTy* scene_ = nullptr;
 };

@@ -6,6 +6,7 @@
 #include "render/scene/part_report.h"
 #include "render/warp.h"
 
+#include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
@@ -147,6 +148,7 @@ public:
             // Noise falls as 1 / sqrt(n), and the estimate's own uncertainty faster.
             const double ratio = std::clamp(std::pow(fit.error / options_.error, 1.6), 1.2, 2.5);
             wanted = std::min(most_batches, static_cast<uint64_t>(std::ceil(static_cast<double>(done_) * ratio)));
+            stage_ = fmt::format("tracing grains, error {:.2g} % so far,", 100 * fit.error);
         }
         Gsdf::Data data;
         data.alpha0 = alpha0();
@@ -167,7 +169,7 @@ private:
             if (progress_.cancelled()) return;
             flush_subnormals();
             trace_batch(body_, options_.seed, batch, parts.local(), batch < recorded_batches ? &recorded_[batch] : nullptr);
-            progress_.update("tracing grains", static_cast<double>(++finished) / static_cast<double>(batches));
+            progress_.update(stage_, static_cast<double>(++finished) / static_cast<double>(batches));
         });
         if (progress_.cancelled()) throw Cancelled();
         for (const Counts& part : parts) counts_.add(part);
@@ -287,6 +289,7 @@ private:
     GrainBody body_;
     const GsdfOptions& options_;
     const Progress& progress_;
+    std::string stage_ = "tracing grains";
     Counts counts_;
     std::vector<std::vector<Scattered>> recorded_; // by batch
     uint64_t done_ = 0;                            // batches

@@ -31,7 +31,7 @@ struct Arguments {
     SubjectOptions subject;
     GsdfOptions gsdf;
     bool again = false;
-    std::string figure, size = "1600x1010", json;
+    std::string figure, size = "1600x1130", json;
     uint64_t figure_paths = 12'000'000;
     int threads = 0;
     bool quiet = false;
@@ -148,21 +148,31 @@ private:
     std::optional<EmbreeDevice> device_;
 };
 
+/// As CLI::Range, which lets NaN pass.
+CLI::Validator number_in(double least, double most)
+{
+    const auto check = [least, most](const std::string& text) {
+        const auto number = to_double(text);
+        return number && *number >= least && *number <= most ? std::string() : fmt::format("{} is not a number from {:g} to {:g}", in_quotes(text), least, most);
+    };
+    return {check, fmt::format("{:g} to {:g}", least, most)};
+}
+
 void add_options(CLI::App& command, Arguments& a)
 {
     command.add_option("what", a.words, "Grains of the library, 'all' of them, 'sphere', or mesh files (.obj .ply .stl .off)")->required();
     command.add_option("--material", a.subject.material, "lambert, dielectric or conductor (default: the library's, or a dielectric of index 1.5)");
-    command.add_option("--ior", a.subject.ior, "Refractive index of a dielectric")->check(CLI::Range(0.1, 10.0));
-    command.add_option("--roughness", a.subject.roughness, "Of a dielectric or conductor, 0 (smooth) to 1")->check(CLI::Range(0.0, 1.0));
-    command.add_option("--eta", a.subject.eta, "Of a conductor: its index, one number or red,green,blue")->delimiter(',')->expected(1)->check(CLI::NonNegativeNumber);
-    command.add_option("--k", a.subject.k, "Of a conductor: the index's imaginary part")->delimiter(',')->expected(1)->check(CLI::NonNegativeNumber);
-    command.add_option("--error", a.gsdf.error, "Mean relative error wanted of the density of directions (default 0.01)")->check(CLI::Range(1e-4, 1.0));
+    command.add_option("--ior", a.subject.ior, "Refractive index of a dielectric")->check(number_in(0.1, 10));
+    command.add_option("--roughness", a.subject.roughness, "Of a dielectric or conductor, 0 (smooth) to 1")->check(number_in(0, 1));
+    command.add_option("--eta", a.subject.eta, "Of a conductor: its index, one number or red,green,blue");
+    command.add_option("--k", a.subject.k, "Of a conductor: the index's imaginary part");
+    command.add_option("--error", a.gsdf.error, "Mean relative error wanted of the density of directions (default 0.01)")->check(number_in(1e-4, 1));
     command.add_option("--seed", a.subject.seed, "Which individual of the library's grains")->check(CLI::NonNegativeNumber);
     command.add_option("--triangles", a.subject.triangles, "Of the library's shapes, about (default: the type's)")
         ->check(CLI::Range(least_shape_triangles, most_shape_triangles));
     command.add_flag("--force", a.again, "Trace again what is in the cache");
     command.add_option("--figure", a.figure, "Picture of the error maps of one grain to write (.png, ...), and a table of what simpler forms miss");
-    command.add_option("--size", a.size, "Of that picture, WIDTHxHEIGHT pixels (default 1600x1010)");
+    command.add_option("--size", a.size, "Of that picture, WIDTHxHEIGHT pixels (default 1600x1130)");
     command.add_option("--figure-paths", a.figure_paths, "Through the grain, to compare with (default 12000000)")->check(CLI::Range(uint64_t{10'000}, uint64_t{1} << 36));
     command.add_option("--json", a.json, "File to write everything to in numbers; - for standard output, without the table");
     command.add_option("-t,--threads", a.threads, "Threads (default: all cores)")->check(CLI::Range(1, 4096));

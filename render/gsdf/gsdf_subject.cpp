@@ -11,6 +11,7 @@ namespace {
 
 const std::string place = "scree grains gsdf";
 const std::vector<std::string> kinds{"lambert", "dielectric", "conductor"};
+constexpr double largest_index = 1000; // of a metal, with room
 
 [[noreturn]] void fail_on_name(const std::string& word)
 {
@@ -21,12 +22,19 @@ const std::vector<std::string> kinds{"lambert", "dielectric", "conductor"};
                      nearest.empty() ? "" : nearest.substr(2));
 }
 
-C3f rgb(const std::vector<double>& numbers, const C3f& absent, const std::string& option)
+C3f rgb(const std::string& text, const C3f& absent, const std::string& option)
 {
-    if (numbers.empty()) return absent;
-    if (numbers.size() == 2 || numbers.size() > 3) throw InputError(option, fmt::format("{} numbers", numbers.size()), "one, or three for red, green and blue");
-    const auto at = [&](size_t i) { return static_cast<float>(numbers[numbers.size() == 1 ? 0 : i]); };
-    return {at(0), at(1), at(2)};
+    if (text.empty()) return absent;
+    std::vector<float> numbers;
+    for (size_t from = 0, comma = 0; comma != std::string::npos; from = comma + 1) {
+        comma = text.find(',', from);
+        const auto number = to_double(std::string_view(text).substr(from, comma - from));
+        if (!number || !(*number >= 0 && *number <= largest_index)) numbers.resize(3); // one too many, then
+        numbers.push_back(static_cast<float>(number.value_or(0)));
+    }
+    if (numbers.size() == 1) return C3f(numbers[0]);
+    if (numbers.size() != 3) throw InputError(option, in_quotes(text), "a number from 0 on, or three as in 0.2,0.9,1.1 for red, green and blue");
+    return {numbers[0], numbers[1], numbers[2]};
 }
 
 void override_material(const SubjectOptions& options, Material& material, const std::string& name)

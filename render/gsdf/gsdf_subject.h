@@ -19,7 +19,7 @@ struct GsdfSubject {
 struct SubjectOptions {
     std::optional<std::string> material; ///< kind: lambert, dielectric, conductor
     std::optional<double> ior, roughness;
-    std::vector<double> eta, k;          ///< of a conductor: one number, or three for RGB; empty: as of Material
+    std::string eta, k;                  ///< of a conductor: a number, or three with commas between for RGB; empty: as of Material
     std::optional<uint64_t> triangles, seed; ///< of the library's shapes
 };
 

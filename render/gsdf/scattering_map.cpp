@@ -19,7 +19,7 @@ using Map = ScatteringMap;
 using Counts = std::vector<uint64_t>; // rows * row_cells
 
 constexpr uint32_t batch_size = 3 * 4096;
-constexpr double same_point = 0x1p-12; // well above the rounding of PackedDirection, of exits at the entry
+constexpr double near_entry = 0.3; // where strata of impacts, the widest of 0.25 in cos beta_o, move the exit across the entry
 
 /// The azimuth of v about n_o from the plane of incidence, in -pi..pi; see Encounter.
 double azimuth(const V3d& v, double sin_beta, double cos_beta) { return std::atan2(v.y, cos_beta * v.x + sin_beta * v.z); }
@@ -130,7 +130,7 @@ uint32_t ScatteringMap::cell_of(double q, const V3d& point, const V3d& w)
     const double b = std::sqrt(q), c = safe_sqrt(1 - q);
     const V3d normal(-b, 0, c), entry = -normal;
     const double delta = azimuth(w, b, c);
-    const double of_exit = (point - entry).length2() < same_point * same_point ? 0 : azimuth(point, b, c);
+    const double of_exit = (point - entry).length2() < near_entry * near_entry ? 0 : azimuth(point, b, c);
     const double beta = std::acos(std::clamp(normal.dot(w), -1.0, 1.0));
     const uint32_t of_beta = std::min(polar - 1, static_cast<uint32_t>(beta / pi * polar));
     return bin(-of_exit, turns) * directions + of_beta * azimuths + bin(delta, azimuths);

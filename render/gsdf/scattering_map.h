@@ -14,8 +14,9 @@ namespace scree {
 ///
 /// This is our reading of Figures 5 to 32 of the supplement of Müller et al. 2016. n_o is the normal at the entry x_o, looking
 /// inwards; omega_o goes into the sphere, omega_i out of it at x_i. Azimuths about n_o count from the plane of x_o, the centre
-/// and x_i: gamma_o is omega_o's and gamma_i is omega_i's. Where x_i is x_o that plane is the plane of incidence. A map sees the
-/// correlation between where light leaves and where to, which a product of the two distributions loses.
+/// and x_i: gamma_o is omega_o's and gamma_i is omega_i's. Where x_i is within 0.3 radii of x_o, that plane says nothing and is
+/// replaced by the plane of incidence. A map sees the correlation between where light leaves and where to, which a product of
+/// the two distributions loses.
 ///
 /// Cells are equally wide in cos beta_o, gamma_o, beta_i (0 along n_o, the first half is front-facing), and
 /// delta = gamma_i - gamma_o, the azimuth of omega_i from the plane of incidence. Azimuths of 0 and pi are in the middle of

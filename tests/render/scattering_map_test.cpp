@@ -175,10 +175,11 @@ TEST(MapErrors, OfALambertSphere)
 
 TEST(MapErrors, OfAGlassSphere)
 {
+    // One direction for each number of reflections: strata of impacts smear it by some degrees, which these cells resolve.
     const MapErrors errors = errors_of_sphere(glass(1.5));
-    const double ours = form(errors, "gsdf").full;
-    EXPECT_LT(ours, 0.3 * form(errors, "factored").full); // the way out is decided by the number of reflections
-    EXPECT_LT(ours, 0.1 * form(errors, "hg").full);
+    EXPECT_LT(errors.noise.full, 0.05);
+    EXPECT_LT(form(errors, "gsdf").full, 0.5 * form(errors, "hg").full);
+    EXPECT_LT(form(errors, "gsdf").direction, form(errors, "hg").direction);
     EXPECT_LT(form(errors, "factored").full, form(errors, "hg").full);
     EXPECT_LT(form(errors, "hg").direction, form(errors, "isotropic").direction);
 }
