@@ -6,7 +6,8 @@ namespace scree {
 
 namespace {
 
-constexpr uint32_t most_events = 1000000;
+// Meshes that run through themselves have pockets with a way in and none out. What is not white has lost all light long before.
+constexpr uint32_t most_events = 1000000, most_opaque_events = 4096;
 constexpr double rounding = 0x1p-50; // of places in the unit sphere
 
 /// The next face on the way from o along d, or false when the sphere is left.
@@ -63,7 +64,7 @@ GrainExit walk_grain(const GrainBody& body, V3d o, V3d d, Sampler& sampler)
         if (inside) exit.length += step.t;
         const Frame frame(step.normal);
         const BsdfSample sample = sample_bsdf(body.material, frame.to_local(-d), sampler);
-        if (!sample.valid || ++exit.events > most_events) {
+        if (!sample.valid || ++exit.events > (body.material.transmits() ? most_events : most_opaque_events)) {
             exit.lost = true;
             return exit;
         }

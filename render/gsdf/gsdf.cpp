@@ -165,7 +165,7 @@ C3f Gsdf::weight(uint32_t number, const Material& material, double radius) const
 
 std::string doubt_of(const GsdfQuality& quality, double wanted_error)
 {
-    if (static_cast<double>(quality.lost) > 1e-4 * static_cast<double>(quality.paths)) {
+    if (static_cast<double>(quality.lost) > 1e-3 * static_cast<double>(quality.paths)) {
         return fmt::format("{} of {} paths were lost in the mesh; is it closed, and free of self-intersections?", quality.lost, quality.paths);
     }
     if (quality.density_error <= wanted_error) return "";

@@ -113,7 +113,7 @@ TEST_P(GrainUnderSun, ProxyIsTheMeanGrain)
         const V3d d(std::sin(a), 0, std::cos(a)); // turned by a, towards the sun
         PathOptions options;
         options.explicit_grains = 0;
-        constexpr uint32_t paths = 1500;
+        constexpr uint32_t paths = 6000;
         std::vector<double> sums(under_sun.size());
         look(under_sun, d, paths, options, 2, [&](size_t i, const PathResult& path, const PathVertex&) { sums[i] += path.radiance.y; });
         const Estimate proxy = over(sums, paths);
