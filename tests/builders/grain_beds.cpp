@@ -7,6 +7,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <map>
+
 namespace scree {
 
 namespace {
@@ -16,7 +18,10 @@ std::unique_ptr<TestScene> lay(const BedGrain& grain, double fraction, uint64_t 
     auto scene = std::make_unique<TestScene>();
     const uint32_t type = scene->add_type(grain.material, grain.shape);
     scene->set_gsdf(type, grain.gsdf);
-    scene->add_grains(push_apart(count, fraction, 1, 1e-3, 11), type);
+    static std::map<std::pair<double, uint64_t>, std::vector<PackedSphere>> packings; // costly, and the same for every grain
+    auto& packing = packings[{fraction, count}];
+    if (packing.empty()) packing = push_apart(count, fraction, 1, 1e-3, 11);
+    scene->add_grains(packing, type);
     return scene;
 }
 
@@ -61,14 +66,14 @@ std::unique_ptr<TestScene> make_bed(const BedGrain& grain, double fraction, uint
     return scene;
 }
 
-std::unique_ptr<TestScene> make_bed_under_sun(const BedGrain& grain, double fraction, uint64_t count)
+std::unique_ptr<TestScene> make_bed_under_sun(const BedGrain& grain, double fraction, uint64_t count, double diameter)
 {
     auto scene = lay(grain, fraction, count);
     scene->add_light(sky(0.3f, 0.1f));
     Light sun;
     sun.kind = LightKind::distant;
     sun.direction = V3d(0.5, 0.3, 0.8).normalized();
-    sun.one_minus_cos = 2 * std::pow(std::sin(0.53 * pi / 720), 2);
+    sun.one_minus_cos = 2 * std::pow(std::sin(diameter * pi / 720), 2);
     sun.radiance = C3f(static_cast<float>(3 / (pi * sun.one_minus_cos * (2 - sun.one_minus_cos))));
     scene->add_light(sun);
     scene->build();

@@ -23,8 +23,8 @@ std::vector<BedGrain> bed_grains(double gsdf_error);
 
 /// A cube full of grains of radius 1 at a fraction, lit by a bright upper half of the sky.
 std::unique_ptr<TestScene> make_bed(const BedGrain& grain, double fraction, uint64_t count);
-/// The same under a sun of half a degree and a dim sky.
-std::unique_ptr<TestScene> make_bed_under_sun(const BedGrain& grain, double fraction, uint64_t count);
+/// The same under a sun of an angular diameter (degrees) and irradiance 3, and a dim sky.
+std::unique_ptr<TestScene> make_bed_under_sun(const BedGrain& grain, double fraction, uint64_t count, double diameter);
 
 /// Mean radiance of `paths` rays from above and from the sides towards the bed's middle.
 Estimate bed_radiance(const TestScene& bed, uint32_t paths, uint32_t explicit_grains, uint64_t seed);
