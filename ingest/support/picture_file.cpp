@@ -8,6 +8,7 @@
 #include <dlfcn.h>
 
 #include <fstream>
+#include <string>
 
 namespace scree {
 
@@ -24,7 +25,7 @@ PictureModule load_module()
 {
     const std::filesystem::path file = folder_of_this_program() / "scree_pictures.so";
     // Never closed: OpenImageIO keeps threads and caches until the program ends.
-    void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    void* const library = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
     const auto function = [&]<typename F>(F*& to, const char* name) {
         to = library ? reinterpret_cast<F*>(dlsym(library, name)) : nullptr;
         if (to) return;

@@ -16,8 +16,8 @@ struct PictureFile {
     std::vector<float> values; ///< empty when not whole
 };
 
-// OpenImageIO stands behind these. It is loaded when the first of them is called, as it takes longer than many a command needs
-// in all; each throws InputError when it is not there.
+// OpenImageIO stands behind these. Loading it takes longer than many commands do in all, so it waits for the first call; each
+// throws InputError when it is not there.
 
 /// Reads a picture (EXR, HDR, PNG, ...). Throws InputError when it cannot be read.
 PictureFile read_picture_file(const std::filesystem::path& path);
