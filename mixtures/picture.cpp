@@ -1,10 +1,8 @@
 #include "mixtures/picture.h"
 
-#include "ingest/support/atomic_file.h"
 #include "ingest/support/error.h"
+#include "ingest/support/picture_file.h"
 #include "mixtures/bitmap_font.h"
-
-#include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <cmath>
@@ -82,13 +80,12 @@ int Picture::text_height(int scale) { return Glyph::height * scale; }
 
 void Picture::write(const std::filesystem::path& path) const
 {
-    AtomicFile file(path);
-    const auto out = OIIO::ImageOutput::create(file.temporary().string());
-    if (!out) throw InputError(path.string(), "the extension '" + path.extension().string() + "'", "a picture format such as .png");
-    const OIIO::ImageSpec spec(width_, height_, 3, OIIO::TypeUInt8);
-    if (!out->open(file.temporary().string(), spec) || !out->write_image(OIIO::TypeUInt8, rgb_.data()) || !out->close())
-        throw InputError(path.string(), out->geterror(), "a file that can be written");
-    file.commit();
+    if (!can_write_picture_file(path)) {
+        throw InputError(path.string(), "the extension '" + path.extension().string() + "'", "a picture format such as .png");
+    }
+    std::vector<float> values(rgb_.size());
+    std::ranges::transform(rgb_, values.begin(), [](uint8_t c) { return static_cast<float>(c) / 255; });
+    write_picture_file(path, width_, height_, values);
 }
 
 } // namespace scree

@@ -1,5 +1,6 @@
 #include "packing/tetrahedra.h"
 
+#include "ingest/support/program_folder.h"
 #include "ingest/weld.h"
 #include "packing/tetgen_message.h"
 #include "packing/worker_process.h"

@@ -132,11 +132,4 @@ WorkerResult run_worker(const std::filesystem::path& program, const std::vector<
     return result;
 }
 
-std::filesystem::path folder_of_this_program()
-{
-    std::error_code error;
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-    return error ? std::filesystem::path() : program.parent_path();
-}
-
 } // namespace scree

@@ -23,7 +23,4 @@ struct WorkerResult {
 WorkerResult run_worker(const std::filesystem::path& program, const std::vector<std::string>& arguments, std::span<const char> input,
                         std::chrono::milliseconds timeout, size_t most_output);
 
-/// The folder of the running program; empty when the system does not tell.
-std::filesystem::path folder_of_this_program();
-
 } // namespace scree

@@ -13,9 +13,11 @@ extern char** environ;
 
 namespace scree::test {
 
-ProgramRun run_scree(const std::vector<std::string>& arguments, const std::string& signal_at, double signal_after)
+std::string scree_program() { return SCREE_PROGRAM; }
+
+ProgramRun run_scree(const std::vector<std::string>& arguments, const std::string& signal_at, double signal_after, const std::string& program)
 {
-    std::vector<std::string> words{SCREE_PROGRAM};
+    std::vector<std::string> words{program};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
@@ -30,11 +32,11 @@ ProgramRun run_scree(const std::vector<std::string>& arguments, const std::strin
     for (const int end : {out[0], out[1], err[0], err[1]}) posix_spawn_file_actions_addclose(&actions, end);
     const auto start = std::chrono::steady_clock::now();
     pid_t child = 0;
-    const int failure = posix_spawn(&child, SCREE_PROGRAM, &actions, nullptr, argv.data(), environ);
+    const int failure = posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     close(out[1]);
     close(err[1]);
-    if (failure != 0) throw std::runtime_error("cannot run " SCREE_PROGRAM);
+    if (failure != 0) throw std::runtime_error("cannot run " + program);
 
     ProgramRun run;
     bool signalled = signal_at.empty();

@@ -12,7 +12,11 @@ struct ProgramRun {
     double seconds = 0;
 };
 
+/// Where the built `scree` lies.
+std::string scree_program();
+
 /// Runs `scree` with these arguments; when its error output first holds `signal_at`, waits and sends SIGINT.
-ProgramRun run_scree(const std::vector<std::string>& arguments, const std::string& signal_at = "", double signal_after = 0);
+ProgramRun run_scree(const std::vector<std::string>& arguments, const std::string& signal_at = "", double signal_after = 0,
+                     const std::string& program = scree_program());
 
 } // namespace scree::test
