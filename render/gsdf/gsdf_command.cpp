@@ -29,7 +29,7 @@ constexpr int interrupted_status = 130;
 struct Arguments {
     std::vector<std::string> words;
     SubjectOptions subject;
-    GsdfOptions gsdf{.error = 0.02}; // as the renderer at standard accuracy
+    GsdfOptions gsdf{.error = 0.03}; // as the renderer at standard accuracy
     bool again = false;
     std::string figure, size = "1600x1130", json;
     uint64_t figure_paths = 12'000'000;
@@ -166,7 +166,7 @@ void add_options(CLI::App& command, Arguments& a)
     command.add_option("--roughness", a.subject.roughness, "Of a dielectric or conductor, 0 (smooth) to 1")->check(number_in(0, 1));
     command.add_option("--eta", a.subject.eta, "Of a conductor: its index, one number or red,green,blue");
     command.add_option("--k", a.subject.k, "Of a conductor: the index's imaginary part");
-    command.add_option("--error", a.gsdf.error, "Mean relative error wanted of the density of directions (default 0.02; the renderer asks for 0.005, 0.01, 0.02, 0.05 at accuracy reference, high, standard, draft)")->check(number_in(1e-4, 1));
+    command.add_option("--error", a.gsdf.error, "Mean relative error wanted of the density of directions (default 0.03; the renderer asks for 0.005, 0.01, 0.03, 0.08 at accuracy reference, high, standard, draft)")->check(number_in(1e-4, 1));
     command.add_option("--seed", a.subject.seed, "Which individual of the library's grains")->check(CLI::NonNegativeNumber);
     command.add_option("--triangles", a.subject.triangles, "Of the library's shapes, about (default: the type's)")
         ->check(CLI::Range(least_shape_triangles, most_shape_triangles));

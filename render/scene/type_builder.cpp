@@ -16,7 +16,7 @@ ShapeSource shape_source(const GrainTypeDescription& type) { return {type.mesh, 
 
 GsdfOptions gsdf_options(Accuracy accuracy)
 {
-    constexpr double error[] = {0.005, 0.01, 0.02, 0.05};
+    constexpr double error[] = {0.005, 0.01, 0.03, 0.08};
     return {.error = error[static_cast<size_t>(accuracy)]};
 }
 

@@ -177,9 +177,9 @@ TEST_F(GsdfCommand, TheRendererFindsWhatItMade)
         return n;
     };
     EXPECT_EQ(count(plan(), "not in the cache"), 3u) << plan();
-    EXPECT_EQ(gsdf({mesh, "--ior", "1.4", "--roughness", "0.3"}, "0.05").status, 0);
-    EXPECT_EQ(gsdf({"flour"}, "0.05").status, 0);
-    EXPECT_EQ(gsdf({"sphere", "--material", "lambert"}, "0.05").status, 0);
+    EXPECT_EQ(gsdf({mesh, "--ior", "1.4", "--roughness", "0.3"}, "0.08").status, 0);
+    EXPECT_EQ(gsdf({"flour"}, "0.08").status, 0);
+    EXPECT_EQ(gsdf({"sphere", "--material", "lambert"}, "0.08").status, 0);
     EXPECT_EQ(count(plan(), "from the cache"), 3u) << plan();
 }
 
