@@ -222,6 +222,7 @@ DensityFit fit_density(const std::array<DirectionCounts, 2>& halves, const std::
     Smoothing at_poles = fit.smoothing;
     at_poles.poles = true;
     better(at_poles);
+    better({{2, 2, 2}, true, fit.smoothing.mirror, true}); // steps along one axis alone may not find what all three gain together
     for (bool any = true; any;) {
         any = false;
         const Smoothing from = fit.smoothing;
