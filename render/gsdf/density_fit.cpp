@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-
 namespace scree {
 
 namespace {
@@ -202,43 +201,46 @@ std::vector<float> keep_rows(Field density, const Field& counted, const std::arr
     return {density.begin(), density.end()};
 }
 
+/// The smoothings a step away: less or more along one axis, or one of the ways changed.
+std::vector<Smoothing> neighbours(const Smoothing& from)
+{
+    constexpr int most = 64;
+    std::vector<Smoothing> all(3, from);
+    all[0].mirror = !from.mirror;
+    all[1].poles = !from.poles;
+    all[2].twice = !from.twice;
+    for (size_t axis = 0; axis < 3; ++axis) {
+        for (const int passes : {from.passes[axis] / 2, std::max(1, 2 * from.passes[axis])}) {
+            if (passes == from.passes[axis] || passes > most) continue;
+            all.push_back(from);
+            all.back().passes[axis] = passes;
+        }
+    }
+    return all;
+}
+
 } // namespace
 
-DensityFit fit_density(const std::array<DirectionCounts, 2>& halves, const std::array<double, strata>& stratum_mass)
+DensityFit fit_density(const std::array<DirectionCounts, 2>& halves, const std::array<double, strata>& stratum_mass, const Smoothing& start)
 {
     const Judge judge(halves, stratum_mass);
     DensityFit fit;
-    Judge::Verdict best = judge.judge(fit.smoothing);
-    const auto better = [&](const Smoothing& how) {
-        const Judge::Verdict verdict = judge.judge(how);
-        if (verdict.half >= best.half) return false;
-        best = verdict;
-        fit.smoothing = how;
-        return true;
-    };
-    Smoothing mirrored = fit.smoothing;
-    mirrored.mirror = true;
-    better(mirrored);
-    Smoothing at_poles = fit.smoothing;
-    at_poles.poles = true;
-    better(at_poles);
-    better({{2, 2, 2}, true, fit.smoothing.mirror, true}); // steps along one axis alone may not find what all three gain together
+    fit.smoothing = start;
+    Judge::Verdict best = judge.judge(start);
     for (bool any = true; any;) {
         any = false;
-        const Smoothing from = fit.smoothing;
-        for (size_t axis = 0; axis < 3; ++axis) {
-            for (const bool twice : {false, true}) {
-                Smoothing next = from;
-                next.passes[axis] = std::max(1, 2 * next.passes[axis]);
-                next.twice = twice;
-                if (next.passes[axis] <= 64) any = better(next) || any;
-            }
+        for (const Smoothing& next : neighbours(fit.smoothing)) {
+            const Judge::Verdict verdict = judge.judge(next);
+            if (verdict.half >= best.half) continue;
+            best = verdict;
+            fit.smoothing = next;
+            any = true;
         }
     }
     // Of errors like a Gaussian's, the mean is sqrt(2 / pi) of the root mean square. The estimate has an error of its own, and
     // the smallest of many is smaller than it should be.
     fit.error = std::sqrt(2 / pi * (std::max(0.0, best.full) + best.spread));
-    fit.density = keep_rows(judge.fit(fit.smoothing), judge.fit({}), stratum_mass);
+    fit.density = keep_rows(judge.fit(fit.smoothing), judge.fit({{0, 0, 0}, false, false, false}), stratum_mass);
     return fit;
 }
 

@@ -13,8 +13,8 @@ using DirectionCounts = std::vector<uint64_t>;
 
 /// How counts are made smooth.
 struct Smoothing {
-    std::array<int, 3> passes{}; ///< of a filter 1/4, 1/2, 1/4 along rows (polar angle), columns (azimuth) and strata
-    bool twice = false;          ///< what the filter takes is filtered as well and added again (Tukey 1977): blurs less
+    std::array<int, 3> passes{2, 2, 2}; ///< of a filter 1/4, 1/2, 1/4 along rows (polar angle), columns (azimuth) and strata
+    bool twice = true;           ///< what the filter takes is filtered as well and added again (Tukey 1977): blurs less
     bool mirror = false;         ///< both sides of the plane of incidence count as one
     bool poles = false;          ///< columns are smoothed where they are narrower than rows are wide
 };
@@ -30,7 +30,7 @@ struct DensityFit {
 
 /// The density behind two independent sets of counts. They are smoothed as far as cross-validation between the halves
 /// finds that it lowers the error: features that the counts can resolve stay. How much is scattered by what polar angle,
-/// over all strata, is kept as counted.
-DensityFit fit_density(const std::array<DirectionCounts, 2>& halves, const std::array<double, Gsdf::strata>& stratum_mass);
+/// over all strata, is kept as counted. start: where the search for the best smoothing begins.
+DensityFit fit_density(const std::array<DirectionCounts, 2>& halves, const std::array<double, Gsdf::strata>& stratum_mass, const Smoothing& start);
 
 } // namespace scree

@@ -142,8 +142,7 @@ public:
         DensityFit fit;
         for (;;) {
             trace(wanted);
-            lend_to_empty_strata();
-            fit = fit_density(counts_.directions, stratum_mass());
+            fit = fit_density(lent_to_empty_strata(), stratum_mass(), fit.smoothing);
             if (fit.error <= options_.error || done_ >= most_batches) break;
             // Noise falls as 1 / sqrt(n), and the estimate's own uncertainty faster.
             const double ratio = std::clamp(std::pow(fit.error / options_.error, 1.6), 1.2, 2.5);
@@ -176,9 +175,10 @@ private:
         done_ = batches;
     }
 
-    /// A stratum that nothing was met in scatters as the nearest that has something: rays between the two ask for it.
-    void lend_to_empty_strata()
+    /// The counts; a stratum that nothing was met in has those of the nearest that has something, as rays between the two ask for it.
+    std::array<DirectionCounts, 2> lent_to_empty_strata()
     {
+        std::array<DirectionCounts, 2> lent = counts_.directions;
         std::array<bool, Gsdf::strata> has{};
         for (uint32_t s = 0; s < Gsdf::strata; ++s) {
             const auto counted = [&](const DirectionCounts& counts) {
@@ -194,11 +194,12 @@ private:
                 else if (s + away < Gsdf::strata && has[s + away]) lender_[s] = s + away;
             }
             if (lender_[s] == s) continue;
-            for (DirectionCounts& counts : counts_.directions) {
+            for (DirectionCounts& counts : lent) {
                 const auto from = counts.begin() + static_cast<std::ptrdiff_t>(lender_[s]) * Gsdf::cells;
                 std::copy(from, from + Gsdf::cells, counts.begin() + static_cast<std::ptrdiff_t>(s) * Gsdf::cells);
             }
         }
+        return lent;
     }
 
     std::vector<float> alpha0() const
@@ -227,7 +228,6 @@ private:
     void group_records(Gsdf::Data& data)
     {
         constexpr size_t all = static_cast<size_t>(Gsdf::strata) * Gsdf::cells;
-        std::vector<uint32_t> count(all);
         std::vector<std::vector<const Scattered*>> of_cell(all);
         for (const auto& batch : recorded_) {
             for (const Scattered& s : batch) {

@@ -18,7 +18,7 @@ static_assert(std::endian::native == std::endian::little, "the file's numbers ar
 static_assert(sizeof(GsdfRecord) == 16 && sizeof(C3f) == 12);
 
 constexpr std::array<char, 8> magic{'S', 'C', 'R', 'E', 'E', 'G', 'S', 'D'};
-constexpr uint32_t version = 2; // also of what the numbers mean: count up when any of that changes
+constexpr uint32_t version = 3; // also of what the numbers mean: count up when any of that changes
 
 /// What a file begins with. Then alpha0, density, first, records, weights follow as they lie in memory.
 struct Header {
