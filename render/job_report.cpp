@@ -39,6 +39,7 @@ const char* kind_name(HitKind kind)
     case HitKind::grain: return "grain";
     case HitKind::surface: return "surface";
     case HitKind::light: return "light";
+    case HitKind::medium: return "medium";
     }
     return "";
 }

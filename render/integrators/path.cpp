@@ -9,17 +9,23 @@ PathResult Path::run(V3d o, V3d d, std::vector<PathVertex>* trail)
     o_ = o;
     d_ = d;
     last_.seen_from = o;
+    if (media_) enter_world();
     bool alive = true;
     while (alive) {
         const V3d start = o_, direction = d_;
         const bool inside = is_inside();
-        const Hit hit = inside ? tracer_.intersect_inside(grain_, o_, d_, from_) : tracer_.intersect(o_, d_, from_, detail(), beyond_);
-        ++result_.segments;
-        if (result_.segments % 65536 == 0 && options_.stop && options_.stop()) {
+        if ((++steps_ & 0xffff) == 0 && options_.stop && options_.stop()) {
             result_.stopped = true;
             break;
         }
-        alive = handle(hit);
+        Hit hit;
+        if (media_ && !inside) {
+            alive = step_through_media(hit);
+        } else {
+            hit = inside ? tracer_.intersect_inside(grain_, o_, d_, from_) : tracer_.intersect(o_, d_, from_, detail(), beyond_);
+            ++result_.segments;
+            alive = handle(hit);
+        }
         if (trail) trail->push_back({start, direction, hit, inside, weight_, result_.radiance});
     }
     return result_;
@@ -30,10 +36,10 @@ bool Path::handle(const Hit& hit)
     if (hit.place.kind == HitKind::none) return handle_miss();
     const bool is_proxy = hit.place.kind == HitKind::grain && hit.place.triangle == no_triangle && !is_inside() && detail() == GrainDetail::proxy;
     if (is_proxy && misses_proxy(hit)) {
-        beyond_ = hit.t; // on along the same ray
+        beyond_ = passed_ = hit.t; // on along the same ray
         return true;
     }
-    beyond_ = 0;
+    if (media_ && is_inside() && hit.place.kind != HitKind::none) regions_ = media_->after(regions_, o_, hit.point);
     attenuate(is_inside() ? &material_of(grain_) : surrounding_, hit.t);
     if (hit.place.kind == HitKind::light) {
         add_light(hit);
@@ -47,7 +53,7 @@ bool Path::handle_miss()
     if (is_inside()) { // lost between two triangles: go on as if the interface were not there
         ++result_.leaks;
         grain_ = {};
-        from_ = {};
+        start_ray(o_, d_, {});
         last_.specular = true; // no light was sampled for this way
         return true;
     }
@@ -87,16 +93,14 @@ bool Path::handle_interface(const Hit& hit)
         if (on_grain) grain_ = sample.wi.z < 0 ? hit.place : Place{};
         else surrounding_ = sample.wi.z < 0 ? &material : nullptr;
     }
-    o_ = hit.point;
-    d_ = frame.to_world(sample.wi).normalized();
-    from_ = hit.place;
+    start_ray(hit.point, frame.to_world(sample.wi).normalized(), hit.place);
     last_ = {material.is_delta(), sample.pdf, o_};
     return true;
 }
 
 bool Path::survives()
 {
-    const double w = max_component(weight_);
+    const double w = max_component(weight_ * spectral_.weight());
     if (w <= 0) return false;
     if (w >= 1 || depth_ < 3) return true;
     if (sampler_.next() >= w) return false;
@@ -115,7 +119,7 @@ void Path::note_first(const Hit& hit, const Material& material)
     first.hit = true;
     first.albedo = material.kind == MaterialKind::lambert ? material.reflectance : material.tint;
     first.normal = V3f(hit.normal);
-    first.depth = hit.t;
+    first.depth = moved_ + hit.t;
     if (hit.place.kind == HitKind::grain) {
         first.type = hit.place.type;
         first.id = world_.id(hit.place.index);
@@ -134,17 +138,17 @@ void Path::add_direct_light(const Hit& hit, const Material& material, const Fram
     const C3f f = eval_bsdf(material, wo, wi, sampler_);
     if (is_black(f)) return;
     ++result_.shadow_rays;
-    const double visibility = tracer_.visibility(hit.point, light.direction, light.distance, hit.place, light.light, detail());
-    if (visibility > 0) add_light_sample(light, light.distance, f, pdf_bsdf(material, wo, wi), visibility);
+    const C3f passed = passing(hit.point, light.direction, light.distance, hit.place, light.light, regions_);
+    if (!is_black(passed)) add_light_sample(light, light.distance, f, pdf_bsdf(material, wo, wi), passed);
 }
 
-void Path::add_light_sample(const LightSample& light, double distance, const C3f& f, double scatter_pdf, double visibility)
+void Path::add_light_sample(const LightSample& light, double distance, const C3f& f, double scatter_pdf, const C3f& passed)
 {
-    double w = visibility;
+    double w = 1;
     if (!light.delta && options_.direct_light == DirectLight::both) w *= mis_weight(light.pdf, scatter_pdf);
-    C3f arriving = light.radiance;
+    C3f arriving = light.radiance * passed;
     if (surrounding_ && std::isfinite(distance)) arriving *= transmittance(*surrounding_, distance);
-    result_.radiance += weight_ * f * arriving * static_cast<float>(w / light.pdf);
+    add(f * arriving * static_cast<float>(w / light.pdf));
 }
 
 double Path::found_weight(double light_pdf) const
@@ -171,7 +175,7 @@ void Path::add_infinite_lights()
         if (!lights[i].is_infinite()) continue;
         const C3f radiance = world_.lights.infinite_radiance(i, d_);
         if (is_black(radiance)) continue;
-        result_.radiance += weight_ * radiance * static_cast<float>(found_weight(found_pdf(i, std::numeric_limits<double>::infinity())));
+        add(radiance * static_cast<float>(found_weight(found_pdf(i, std::numeric_limits<double>::infinity()))));
     }
 }
 
@@ -179,7 +183,7 @@ void Path::add_light(const Hit& hit)
 {
     const auto light = static_cast<uint32_t>(hit.place.index);
     const double pdf = found_pdf(light, hit.t);
-    result_.radiance += weight_ * world_.lights.emitted(light) * static_cast<float>(found_weight(pdf));
+    add(world_.lights.emitted(light) * static_cast<float>(found_weight(pdf)));
 }
 
 PathResult trace_path(const World& world, const Tracer& tracer, V3d o, V3d d, Sampler& sampler, const PathOptions& options,

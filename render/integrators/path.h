@@ -13,7 +13,7 @@ inline double mis_weight(double p, double other) { return p * p / (p * p + other
 class Path {
 public:
     Path(const World& world, const Tracer& tracer, Sampler& sampler, const PathOptions& options)
-        : world_(world), tracer_(tracer), sampler_(sampler), options_(options), explicit_left_(options.explicit_grains)
+        : world_(world), tracer_(tracer), sampler_(sampler), options_(options), media_(tracer.regions()), explicit_left_(options.explicit_grains)
     {
     }
 
@@ -30,11 +30,37 @@ private:
 
     bool is_inside() const { return grain_.kind == HitKind::grain; }
     GrainDetail detail() const { return explicit_left_ > 0 ? GrainDetail::as_is : GrainDetail::proxy; }
+    /// The same within the regions: there may be a medium in place of the grains.
+    GrainDetail detail(RegionSet regions) const { return media_ && (regions & media_->instead_of_grains()) != 0 ? GrainDetail::none : detail(); }
     const Material& material_of(const Place& grain) const { return world_.types[grain.type].material; }
     static C3f transmittance(const Material& medium, double length);
     void attenuate(const Material* medium, double length)
     {
         if (medium) weight_ *= transmittance(*medium, length);
+    }
+
+    // On the ray through media (medium_vertex.cpp).
+    void enter_world(); ///< finds the regions the path starts in, and its hero channel
+    /// Goes to the next scattering, crossing or hit; met: what that is.
+    bool step_through_media(Hit& met);
+    /// Goes through the surface of a medium, which may move the ray's start.
+    void handle_crossing(const Crossing& crossing);
+    /// The first scattering of the media around, between two places on the ray.
+    MediumEvent medium_event(double t0, double t1);
+    C3f media_transmittance(RegionSet regions, const V3d& o, const V3d& d, double length);
+    /// What passes from o to a light `distance` away, of all that stands and lies between.
+    C3f passing(const V3d& o, const V3d& d, double distance, const Place& from, uint32_t light, RegionSet regions);
+    C3f passing_media(V3d o, const V3d& d, double distance, Place from, uint32_t light, RegionSet regions);
+    /// A place in the void near o, which is on the surface of a medium that stands for grains.
+    V3d void_point(const V3d& o);
+
+    void start_ray(const V3d& o, const V3d& d, const Place& from)
+    {
+        o_ = o;
+        d_ = d;
+        from_ = from;
+        beyond_ = passed_ = 0;
+        crossed_ = false;
     }
 
     // Each handles one vertex; false when the path ends there.
@@ -43,7 +69,10 @@ private:
     bool handle_interface(const Hit& hit);
     bool handle_proxy(const Hit& hit);
     bool misses_proxy(const Hit& hit);
+    bool handle_medium(const MediumEvent& event, Hit& met);
+    void add_medium_light(double g);
 
+    void add(const C3f& light) { result_.radiance += weight_ * spectral_.weight() * light; }
     /// Russian roulette: kills with the weight's largest channel, and only what has lost some.
     bool survives();
     bool is_cut();
@@ -52,7 +81,7 @@ private:
     void add_direct_light(const Hit& hit, const Material& material, const Frame& frame, const V3d& wo);
     void add_proxy_light(const Hit& hit, const Encounter& encounter, uint32_t stratum);
     /// Adds what a light's sample brings over `distance`, scattered by f (per solid angle) and weighed against scatter_pdf.
-    void add_light_sample(const LightSample& light, double distance, const C3f& f, double scatter_pdf, double visibility);
+    void add_light_sample(const LightSample& light, double distance, const C3f& f, double scatter_pdf, const C3f& passed);
     /// Weight of light that scattering found, against the chance that sampling the light had of it.
     double found_weight(double light_pdf) const;
     double found_pdf(uint32_t light, double distance) const;
@@ -63,6 +92,7 @@ private:
     const Tracer& tracer_;
     Sampler& sampler_;
     const PathOptions& options_;
+    const RegionTracer* media_; ///< null where there are none
 
     V3d o_, d_;
     Place from_;
@@ -72,8 +102,15 @@ private:
     const Material* surrounding_ = nullptr; // of the dielectric surface the path is inside of, outside grains
     C3f weight_{1};
     Scattering last_;
+    RegionSet regions_ = 0;    // that the path is in
+    Crossing crossing_;        // the last on this ray, if crossed_
+    bool crossed_ = false;
+    double passed_ = 0;        // along the ray: up to there media and their surfaces are behind
+    double moved_ = 0;         // how far the camera's ray came before its start was moved
+    SpectralState spectral_;
     double beyond_ = 0;        // along the ray: where the last of the proxies was met that it missed
     uint32_t depth_ = 0;
+    uint64_t steps_ = 0;
     PathResult result_;
 };
 

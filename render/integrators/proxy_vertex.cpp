@@ -45,12 +45,12 @@ bool Path::handle_proxy(const Hit& hit)
     if (const Hit between = tracer_.surface_between(hit.point, exit); between.place.kind == HitKind::surface) {
         // A surface cuts through the sphere: the path has it before it.
         d_ = (exit - hit.point).normalized();
+        if (media_) regions_ = media_->after(regions_, hit.point, between.point);
         last_ = {true, 0, hit.point};
         return handle_interface(between);
     }
-    o_ = exit;
-    d_ = encounter.to_world(record.direction.unpack()).normalized();
-    from_ = hit.place;
+    if (media_) regions_ = media_->after(regions_, hit.point, exit);
+    start_ray(exit, encounter.to_world(record.direction.unpack()).normalized(), hit.place);
     last_ = {false, gsdf.cell_density(stratum, cell), sphere.centre, true};
     return true;
 }
@@ -80,9 +80,10 @@ void Path::add_proxy_light(const Hit& hit, const Encounter& encounter, uint32_t 
     }
     if (surrounding_) kept *= transmittance(*surrounding_, length_outside(hit.point, exit, gsdf.record(number), sphere.radius));
     ++result_.shadow_rays;
-    double visibility = tracer_.visibility(exit, light.direction, distance, hit.place, light.light, GrainDetail::proxy);
-    if (visibility > 0 && tracer_.surface_between(hit.point, exit).place.kind == HitKind::surface) visibility = 0;
-    if (visibility > 0) add_light_sample(light, distance, kept * static_cast<float>(density), gsdf.cell_density(stratum, cell), visibility);
+    const RegionSet regions = media_ ? media_->after(regions_, hit.point, exit) : 0;
+    const C3f passed = passing(exit, light.direction, distance, hit.place, light.light, regions);
+    if (is_black(passed) || tracer_.surface_between(hit.point, exit).place.kind == HitKind::surface) return;
+    add_light_sample(light, distance, kept * static_cast<float>(density), gsdf.cell_density(stratum, cell), passed);
 }
 
 } // namespace scree

@@ -58,7 +58,8 @@ Hit make_hit(const TracerQuery& query)
     const Place& place = query.place;
     Hit hit{place, query.best, query.o + query.best * query.d};
     switch (place.kind) {
-    case HitKind::none: break;
+    case HitKind::none:
+    case HitKind::medium: break;
     case HitKind::grain: {
         const GrainSphere sphere = world.sphere(place.index);
         if (place.triangle == no_triangle) {
@@ -213,6 +214,7 @@ Tracer::Tracer(std::shared_ptr<const EmbreeDevice> device, const World& world)
 Tracer::~Tracer() = default;
 
 RTCSceneTy* Tracer::embree_scene() const { return impl_->scene; }
+const RegionTracer* Tracer::regions() const { return impl_->regions.get(); }
 double Tracer::scene_radius() const { return impl_->radius; }
 
 namespace {
@@ -243,8 +245,8 @@ Hit Tracer::intersect(const V3d& o, const V3d& d, const Place& from, GrainDetail
     if (!approach(*impl_, query)) return {};
     const V3d start = float_start(impl_->world, o, d, from) + query.advanced * d;
     RTCRayHit ray = make_ray(start, d, query.embree_end());
-    rtcIntersect1(impl_->scene, &query.context, &ray);
-    if (impl_->fill) impl_->fill->find_nearest(query);
+    rtcIntersect1(impl_->scene_with(detail), &query.context, &ray);
+    if (impl_->fill && detail != GrainDetail::none) impl_->fill->find_nearest(query);
     return make_hit(query);
 }
 
@@ -288,8 +290,8 @@ double Tracer::visibility(const V3d& o, const V3d& d, double tmax, const Place& 
     if (!approach(*impl_, query)) return 1;
     if (tmax <= query.advanced) return 1;
     RTCRayHit ray = make_ray(float_start(impl_->world, o, d, from) + query.advanced * d, d, query.embree_end());
-    rtcOccluded1(impl_->scene, &query.context, &ray.ray);
-    if (impl_->fill && query.place.kind == HitKind::none) impl_->fill->find_any(query);
+    rtcOccluded1(impl_->scene_with(detail), &query.context, &ray.ray);
+    if (impl_->fill && detail != GrainDetail::none && query.place.kind == HitKind::none) impl_->fill->find_any(query);
     return query.place.kind == HitKind::none ? query.passed : 0;
 }
 

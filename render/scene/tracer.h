@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/scene/region_tracer.h"
 #include "render/scene/world.h"
 
 #include <cstdint>
@@ -9,18 +10,20 @@ struct RTCSceneTy;
 
 namespace scree {
 
-enum class HitKind : uint8_t { none, grain, surface, light };
+enum class HitKind : uint8_t { none, grain, surface, light, medium };
 
-/// What a ray met, or what it starts on: a grain (with the triangle of its mesh), a surface's triangle, or a light.
+/// What a ray met, or what it starts on: a grain (with the triangle of its mesh), a surface's triangle, a light, or nothing but
+/// a medium (which no ray starts on).
 struct Place {
     HitKind kind = HitKind::none;
-    uint64_t index = 0;               ///< grain, surface or light
+    uint64_t index = 0;               ///< grain, surface, light or region
     uint32_t triangle = no_triangle;  ///< of a mesh
     uint8_t type = 0;                 ///< of a grain
 };
 
-/// How grains that a ray meets from outside are taken: as they are, or by their bounding spheres, which stand for them.
-enum class GrainDetail : uint8_t { as_is, proxy };
+/// How grains that a ray meets from outside are taken: as they are, by their bounding spheres, which stand for them, or not at
+/// all, where a medium stands for them.
+enum class GrainDetail : uint8_t { as_is, proxy, none };
 
 struct Hit {
     Place place;
@@ -54,6 +57,9 @@ public:
     double visibility(const V3d& o, const V3d& d, double tmax, const Place& from, uint32_t target, GrainDetail detail) const;
     /// The surface that cuts the way from a to b, if there is one. For worlds with proxies; others may always say none.
     Hit surface_between(const V3d& a, const V3d& b) const;
+
+    /// The surfaces of the media; null where there is no medium.
+    const RegionTracer* regions() const;
 
     /// The scene that `intersect` asks, as Embree's handle: for benchmarks against Embree alone.
     RTCSceneTy* embree_scene() const;

@@ -22,11 +22,17 @@ Tracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const World& wor
         surface_scene = rtcNewScene(device->get());
         rtcSetSceneFlags(surface_scene, RTC_SCENE_FLAG_ROBUST);
     }
+    const bool some_replaced = std::ranges::any_of(world.regions, &MediumRegion::instead_of_grains);
+    if (some_replaced && grains.size() > 0) {
+        open_scene = rtcNewScene(device->get());
+        rtcSetSceneFlags(open_scene, RTC_SCENE_FLAG_ROBUST);
+    }
     uint32_t id = first_surface;
     for (const Surface& surface : world.surfaces) {
         RTCGeometry geometry = make_surface(surface);
         attach(scene, geometry, id);
         if (surface_scene) attach(surface_scene, geometry, id);
+        if (open_scene) attach(open_scene, geometry, id);
         rtcReleaseGeometry(geometry);
         ++id;
     }
@@ -35,12 +41,15 @@ Tracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const World& wor
     for (uint32_t i = 0; i < lights.size(); ++i) {
         if (lights[i].is_infinite()) continue;
         RTCGeometry geometry = make_light(lights[i]);
-        attach(scene, geometry, id++);
+        attach(scene, geometry, id);
+        if (open_scene) attach(open_scene, geometry, id);
+        ++id;
         rtcReleaseGeometry(geometry);
         light_of_id.push_back(i);
     }
     rtcCommitScene(scene);
     if (surface_scene) rtcCommitScene(surface_scene);
+    if (open_scene) rtcCommitScene(open_scene);
     device->check("building the scene's acceleration structure");
 
     RTCBounds bounds;
@@ -55,12 +64,14 @@ Tracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const World& wor
         for (int axis = 0; axis < 3; ++axis) far[axis] = std::max({far[axis], std::abs(lo[axis]), std::abs(hi[axis])});
     }
     radius = far.length();
+    if (!world.regions.empty()) regions = std::make_unique<RegionTracer>(device, world);
     if (world.fill) fill = std::make_unique<FillTracer>(device, world);
 }
 
 Tracer::Impl::~Impl()
 {
     if (surface_scene) rtcReleaseScene(surface_scene);
+    if (open_scene) rtcReleaseScene(open_scene);
     if (scene) rtcReleaseScene(scene);
 }
 

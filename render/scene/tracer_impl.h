@@ -24,16 +24,19 @@ struct Tracer::Impl {
     std::shared_ptr<const EmbreeDevice> device;
     const World& world;
     RTCScene scene = nullptr;           // everything
+    RTCScene open_scene = nullptr;      // everything but grains, where a medium stands for some; else null
     RTCScene surface_scene = nullptr;   // surfaces alone, for rays inside grains; null when no ray can be inside one
     uint32_t first_light = first_surface;
     std::vector<uint32_t> light_of_id;  // geometry id - first_light -> light
     double mesh_reach = 0;              // the largest diameter of a mesh grain: how far on a sphere around a ray's start ends
     double radius = 0;
+    std::unique_ptr<const RegionTracer> regions; // where there are media
     std::unique_ptr<const FillTracer> fill; // where the grains are those of a fill: the scene then has surfaces and lights
 
     Impl(std::shared_ptr<const EmbreeDevice> device, const World& world);
     ~Impl();
 
+    RTCScene scene_with(GrainDetail detail) const { return detail == GrainDetail::none && open_scene ? open_scene : scene; }
     bool is_surface(uint32_t id) const { return id >= first_surface && id < first_light; }
     uint32_t light_of(uint32_t id) const { return light_of_id[id - first_light]; }
 

@@ -7,6 +7,7 @@
 #include "render/lights/light.h"
 #include "render/materials/material.h"
 #include "render/math.h"
+#include "render/medium/medium_region.h"
 #include "render/scene/render_space.h"
 
 #include <Imath/ImathBox.h>
@@ -44,6 +45,7 @@ struct World {
     std::optional<Imath::Box3d> domain; ///< what the grains were packed into, where that is known: it bounds them
     std::vector<GrainType> types;
     std::vector<Surface> surfaces;
+    std::vector<MediumRegion> regions;
     LightSet lights;
 
     bool has_grains() const { return fill || grains.size() > 0; }

@@ -35,6 +35,11 @@ void TestScene::add_grains(const std::vector<PackedSphere>& spheres, uint32_t ty
 }
 
 void TestScene::add_surface(const TriangleMesh& mesh, const Material& material) { surfaces_.emplace_back(mesh, material); }
+void TestScene::add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const C3f& albedo, double g, bool instead_of_grains)
+{
+    media_.push_back({mesh, sigma_t, albedo, g, instead_of_grains});
+}
+
 void TestScene::add_light(const Light& light) { lights_.push_back(light); }
 
 void TestScene::add_constant_light(float radiance)
@@ -73,6 +78,12 @@ void TestScene::build()
         surface.material.absorption *= static_cast<float>(space.world_length(1));
         for (const V3d& p : mesh.positions) surface.positions.emplace_back(space.point(p));
         world_.surfaces.push_back(std::move(surface));
+    }
+    for (const Medium& medium : media_) {
+        MediumRegion region{"medium", {}, medium.mesh.triangles, nullptr, medium.instead_of_grains};
+        for (const V3d& p : medium.mesh.positions) region.positions.emplace_back(space.point(p));
+        region.homogeneous = std::make_shared<HomogeneousMedium>(medium.sigma_t * space.world_length(1), medium.albedo, medium.g);
+        world_.regions.push_back(std::move(region));
     }
     for (Light& light : lights_) {
         light.corner = space.point(light.corner);

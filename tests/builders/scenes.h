@@ -29,6 +29,8 @@ public:
     void add_grain(const V3d& center, double radius, uint32_t type);
     void add_grains(const std::vector<PackedSphere>& spheres, uint32_t type);
     void add_surface(const TriangleMesh& mesh, const Material& material);
+    /// sigma_t per unit of length. instead_of_grains: grains in there are not met.
+    void add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const C3f& albedo, double g, bool instead_of_grains = false);
     void add_light(const Light& light);
     void add_constant_light(float radiance);
 
@@ -50,6 +52,14 @@ private:
     World world_;
     std::vector<Grain> grains_;
     std::vector<std::pair<TriangleMesh, Material>> surfaces_;
+    struct Medium {
+        TriangleMesh mesh;
+        V3d sigma_t;
+        C3f albedo;
+        double g;
+        bool instead_of_grains;
+    };
+    std::vector<Medium> media_;
     std::vector<Light> lights_;
     std::unique_ptr<Tracer> tracer_;
 };

@@ -44,6 +44,15 @@ TriangleMesh cube()
     return mesh;
 }
 
+TriangleMesh box(const Imath::V3d& lo, const Imath::V3d& hi)
+{
+    TriangleMesh mesh = cube();
+    for (Imath::V3d& p : mesh.positions) {
+        for (int axis = 0; axis < 3; ++axis) p[axis] = p[axis] < 0 ? lo[axis] : hi[axis];
+    }
+    return mesh;
+}
+
 TriangleMesh ground(double half, double z)
 {
     return {{{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}}, {{0, 1, 2}, {0, 2, 3}}};

@@ -1,0 +1,182 @@
+// Volumetric path tracing: a path among media, and what it does where one scatters it.
+
+#include "render/integrators/path.h"
+#include "render/medium/phase_function.h"
+
+#include <bit>
+
+namespace scree {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Calls visit with the number of every region of a set.
+template <class Visit>
+void for_each_region(RegionSet set, const Visit& visit)
+{
+    for (; set != 0; set &= set - 1) visit(static_cast<uint32_t>(std::countr_zero(set)));
+}
+
+} // namespace
+
+void Path::enter_world()
+{
+    regions_ = media_->inside(o_, d_);
+    for (const MediumRegion& region : world_.regions) {
+        if (region.is_achromatic()) continue;
+        spectral_.hero = std::min(static_cast<uint32_t>(3 * sampler_.next()), 2u);
+        break;
+    }
+}
+
+MediumEvent Path::medium_event(double t0, double t1)
+{
+    MediumEvent first;
+    for_each_region(regions_, [&](uint32_t region) { // the nearest of all: media add up
+        const MediumEvent event = world_.regions[region].event(o_, d_, t0, first.scattered ? first.t : t1, spectral_, sampler_);
+        if (event.scattered) first = event;
+    });
+    return first;
+}
+
+C3f Path::media_transmittance(RegionSet regions, const V3d& o, const V3d& d, double length)
+{
+    C3f passed(1);
+    for_each_region(regions, [&](uint32_t region) { passed *= world_.regions[region].transmittance(o, d, 0, length, sampler_); });
+    return passed;
+}
+
+bool Path::step_through_media(Hit& met)
+{
+    if (regions_ != 0) { // far from everything there is nothing to meet but the medium
+        const double clear = media_->clearance(o_);
+        if (clear > passed_) {
+            if (const MediumEvent event = medium_event(passed_, clear); event.scattered) return handle_medium(event, met);
+            passed_ = clear;
+        }
+    }
+    ++result_.segments;
+    Crossing crossing;
+    const bool crosses = media_->next(o_, d_, passed_, infinite, crossed_ ? &crossing_ : nullptr, crossing);
+    const Hit hit = tracer_.intersect(o_, d_, from_, detail(regions_), beyond_);
+    const double next = hit.place.kind == HitKind::none ? infinite : hit.t;
+    const double end = crosses ? std::min(crossing.t, next) : next;
+    if (regions_ != 0) {
+        if (const MediumEvent event = medium_event(passed_, end); event.scattered) return handle_medium(event, met);
+    }
+    if (crosses && crossing.t <= next) {
+        met.place.kind = HitKind::medium;
+        met.place.index = crossing.region;
+        met.t = crossing.t;
+        met.point = o_ + crossing.t * d_;
+        handle_crossing(crossing);
+        return true;
+    }
+    if (hit.place.kind == HitKind::none && regions_ != 0) { // lost through the surface of a medium
+        ++result_.leaks;
+        regions_ = 0;
+        return true;
+    }
+    met = hit;
+    return handle(hit);
+}
+
+void Path::handle_crossing(const Crossing& crossing)
+{
+    const bool among_grains = detail(regions_) != GrainDetail::none;
+    regions_ = RegionTracer::after(regions_, crossing);
+    crossing_ = crossing;
+    crossed_ = true;
+    passed_ = crossing.t;
+    if (among_grains || detail(regions_) == GrainDetail::none) return;
+    // Among grains again: the ray has not been there before, and starts anew in the void between them.
+    attenuate(surrounding_, crossing.t);
+    moved_ += crossing.t;
+    start_ray(void_point(o_ + crossing.t * d_), d_, {});
+    last_.elsewhere = true;
+}
+
+bool Path::handle_medium(const MediumEvent& event, Hit& met)
+{
+    met.place.kind = HitKind::medium;
+    met.t = event.t;
+    met.point = o_ + event.t * d_;
+    ++result_.events;
+    if (is_cut()) return false;
+    if (!result_.first.hit && depth_ == 1) {
+        result_.first.hit = true;
+        result_.first.albedo = event.albedo;
+        result_.first.depth = moved_ + event.t;
+    }
+    attenuate(surrounding_, event.t);
+    weight_ *= event.albedo;
+    if (!survives()) return false;
+    o_ = met.point;
+    if (world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only) add_medium_light(event.g);
+
+    const double u = sampler_.next(), phi = 2 * pi * sampler_.next();
+    const double cosine = sample_henyey_greenstein(event.g, u), sine = safe_sqrt(1 - cosine * cosine);
+    const V3d w = Frame(d_).to_world({sine * std::cos(phi), sine * std::sin(phi), cosine});
+    last_ = {false, pdf_henyey_greenstein(event.g, cosine), o_};
+    start_ray(o_, w.normalized(), {});
+    return true;
+}
+
+void Path::add_medium_light(double g)
+{
+    const double u0 = sampler_.next(), u1 = sampler_.next(), u2 = sampler_.next();
+    const LightSample light = world_.lights.sample(o_, u0, u1, u2);
+    if (!light.valid) return;
+    const double phase = pdf_henyey_greenstein(g, d_.dot(light.direction));
+    const C3f passed = passing(o_, light.direction, light.distance, {}, light.light, regions_);
+    if (!is_black(passed)) add_light_sample(light, light.distance, C3f(static_cast<float>(phase)), phase, passed);
+}
+
+C3f Path::passing(const V3d& o, const V3d& d, double distance, const Place& from, uint32_t light, RegionSet regions)
+{
+    if (media_) return passing_media(o, d, distance, from, light, regions);
+    ++result_.shadow_rays;
+    return C3f(static_cast<float>(tracer_.visibility(o, d, distance, from, light, detail())));
+}
+
+C3f Path::passing_media(V3d o, const V3d& d, double distance, Place from, uint32_t light, RegionSet regions)
+{
+    constexpr float enough = 0.05f; // below it Russian roulette decides whether to look on
+    C3f passed(1);
+    const auto is_lost = [&] {
+        const float most = max_component(passed);
+        if (most >= enough) return false;
+        if (!(most > 0) || sampler_.next() * enough >= most) return true;
+        passed *= enough / most;
+        return false;
+    };
+    Crossing crossing, last;
+    for (bool crossed = false;; crossed = true) {
+        last = crossing;
+        const bool crosses = media_->next(o, d, 0, distance, crossed ? &last : nullptr, crossing);
+        const double length = crosses ? crossing.t : distance;
+        if (regions != 0) {
+            passed *= media_transmittance(regions, o, d, length);
+            if (is_lost()) return C3f(0);
+        }
+        const GrainDetail grains = detail(regions);
+        ++result_.shadow_rays;
+        const double visibility = tracer_.visibility(o, d, length, from, light, grains);
+        if (visibility == 0) return C3f(0);
+        passed *= static_cast<float>(visibility);
+        if (!crosses) return passed;
+        regions = RegionTracer::after(regions, crossing);
+        o += length * d;
+        distance -= length;
+        from = {};
+        if (grains == GrainDetail::none && detail(regions) != GrainDetail::none) {
+            o = void_point(o);
+            crossing.region = RegionTracer::most_regions; // another place: any triangle may be met
+        }
+    }
+}
+
+V3d Path::void_point(const V3d& o) { return o; }
+
+} // namespace scree

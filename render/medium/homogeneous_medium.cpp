@@ -1,0 +1,33 @@
+#include "render/medium/homogeneous_medium.h"
+
+namespace scree {
+
+HomogeneousMedium::HomogeneousMedium(const Imath::V3d& sigma_t, const C3f& albedo, double g) : sigma_t_(sigma_t), albedo_(albedo), g_(g) {}
+
+MediumEvent HomogeneousMedium::event(double t0, double t1, SpectralState& state, Sampler& sampler) const
+{
+    const double sigma = sigma_t_[static_cast<int>(state.hero)];
+    if (!(sigma > 0) && is_achromatic()) return {};
+    const double t = sigma > 0 ? t0 - std::log(sampler.next()) / sigma : std::numeric_limits<double>::infinity();
+    const bool scattered = t < t1;
+    if (!is_achromatic()) {
+        const double length = (scattered ? t : t1) - t0;
+        for (int c = 0; c < 3; ++c) {
+            if (c == static_cast<int>(state.hero)) continue;
+            double ratio = sigma_t_[c] == sigma ? 1 : std::exp((sigma - sigma_t_[c]) * length);
+            if (scattered) ratio *= sigma_t_[c] / sigma;
+            // A walk so much likelier for another hero counts next to nothing here: bounded, so that it stays a number.
+            state.ratio[c] = static_cast<float>(std::min(state.ratio[c] * ratio, 1e30));
+        }
+    }
+    return {scattered, t, albedo_, g_};
+}
+
+C3f HomogeneousMedium::transmittance(double length) const
+{
+    const auto of = [&](double sigma) { return sigma > 0 ? static_cast<float>(std::exp(-sigma * length)) : 1.0f; };
+    if (is_achromatic()) return C3f(of(sigma_t_.x));
+    return {of(sigma_t_.x), of(sigma_t_.y), of(sigma_t_.z)};
+}
+
+} // namespace scree

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "render/medium/medium_event.h"
+#include "render/sampler.h"
+
+namespace scree {
+
+/// A medium that is the same everywhere; lengths in render coordinates.
+class HomogeneousMedium {
+public:
+    /// sigma_t: extinction coefficient, 0 or more. albedo: 0..1. g: of Henyey and Greenstein, -1 < g < 1.
+    HomogeneousMedium(const Imath::V3d& sigma_t, const C3f& albedo, double g);
+
+    bool is_achromatic() const { return sigma_t_.x == sigma_t_.y && sigma_t_.x == sigma_t_.z; }
+    /// The first scattering in t0 < t < t1.
+    MediumEvent event(double t0, double t1, SpectralState& state, Sampler& sampler) const;
+    C3f transmittance(double length) const;
+    const Imath::V3d& sigma_t() const { return sigma_t_; }
+    const C3f& albedo() const { return albedo_; }
+    double g() const { return g_; }
+
+private:
+    Imath::V3d sigma_t_;
+    C3f albedo_;
+    double g_;
+};
+
+} // namespace scree

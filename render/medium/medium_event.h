@@ -1,0 +1,24 @@
+#pragma once
+
+#include "render/math.h"
+
+namespace scree {
+
+/// Where a walk through a medium scatters next.
+struct MediumEvent {
+    bool scattered = false;
+    double t = 0;    ///< along the ray, if it scattered
+    C3f albedo{1};   ///< there: part of the light that is not absorbed
+    double g = 0;    ///< there: asymmetry of the phase function of Henyey and Greenstein
+};
+
+/// One walk for three channels where sigma_t depends on them: it is drawn for one, the hero, and weighed by the one-sample
+/// balance heuristic (Wilkie et al. 2014, hero wavelength sampling): a channel counts ratio / mean(ratio).
+struct SpectralState {
+    uint32_t hero = 0; ///< channel
+    C3f ratio{1};      ///< density of this walk, had another channel been the hero, over its density
+
+    C3f weight() const { return ratio * (3 / (ratio.x + ratio.y + ratio.z)); }
+};
+
+} // namespace scree

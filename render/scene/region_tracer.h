@@ -1,0 +1,57 @@
+#pragma once
+
+#include "render/scene/world.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace scree {
+
+class EmbreeDevice;
+
+/// Where a ray goes through the surface of a region.
+struct Crossing {
+    double t = 0;
+    uint32_t region = 0, triangle = 0;
+    bool enters = false;
+};
+
+/// A set of regions, one bit each.
+using RegionSet = uint64_t;
+
+/// Finds where rays go through the surfaces of a world's media. Embree proposes in float, double decides.
+///
+/// A crossing says which side the ray goes to, so that a set of regions is mended by the next crossing should rounding ever have
+/// made it wrong. Rays are (o, d): unit d, render coordinates.
+class RegionTracer {
+public:
+    static constexpr size_t most_regions = 64;
+
+    /// Builds the structure over world.regions, which must outlive it.
+    RegionTracer(std::shared_ptr<const EmbreeDevice> device, const World& world);
+    ~RegionTracer();
+
+    /// The first crossing in tmin < t < tmax. last: a crossing that the ray has just gone through, or null.
+    bool next(const V3d& o, const V3d& d, double tmin, double tmax, const Crossing* last, Crossing& crossing) const;
+    /// The regions that o is in, found along d.
+    RegionSet inside(const V3d& o, const V3d& d) const;
+    /// `from` after a straight way from a to b.
+    RegionSet after(RegionSet from, const V3d& a, const V3d& b) const;
+    /// `from` after a crossing.
+    static RegionSet after(RegionSet from, const Crossing& crossing)
+    {
+        const RegionSet bit = RegionSet{1} << crossing.region;
+        return crossing.enters ? from | bit : from & ~bit;
+    }
+    /// The regions that stand for grains.
+    RegionSet instead_of_grains() const { return instead_of_grains_; }
+    /// No surface, light or region's surface is nearer to p than this.
+    double clearance(const V3d& p) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+    RegionSet instead_of_grains_ = 0;
+};
+
+} // namespace scree

@@ -1,0 +1,228 @@
+// Homogeneous media against exact solutions of the transport equation (van de Hulst 1980, Multiple Light Scattering), and
+// against themselves where the answer does not depend on how light is found or on the unit of length.
+
+#include "render/integrators/path_tracer.h"
+#include "render/warp.h"
+#include "tests/builders/scenes.h"
+#include "tests/builders/shapes.h"
+#include "tests/builders/statistics.h"
+
+#include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
+
+namespace scree {
+namespace {
+
+constexpr double systematic = 1e-3; // what the slabs may be off by
+
+/// A slab between z = 0 and z = -depth, far wider than light goes.
+std::unique_ptr<TestScene> slab(double depth, const V3d& sigma_t, const C3f& albedo, double g)
+{
+    auto scene = std::make_unique<TestScene>();
+    const double wide = 3e3 * depth;
+    scene->add_medium(box({-wide, -wide, -depth}, {wide, wide, 0}), sigma_t, albedo, g);
+    scene->add_constant_light(1);
+    scene->build();
+    return scene;
+}
+
+struct ReflectedAndPassed {
+    Estimate up[3], down[3]; ///< by channel
+};
+
+/// What `paths` rays from above bring, by the side they leave to. cosine: of incidence; below 0: as of diffuse light.
+ReflectedAndPassed shine(const TestScene& scene, uint32_t paths, double cosine, uint64_t seed)
+{
+    struct Value {
+        C3f radiance;
+        bool up;
+    };
+    std::vector<Value> values(paths);
+    tbb::parallel_for(uint32_t{0}, paths, [&](uint32_t p) {
+        flush_subnormals();
+        Sampler sampler(seed, p, 0, 0);
+        const double u1 = sampler.next(), u2 = sampler.next();
+        V3d d = cosine < 0 ? -sample_cosine_hemisphere(u1, u2) : V3d(std::sqrt(1 - cosine * cosine), 0, -cosine);
+        std::vector<PathVertex> trail;
+        const PathResult result = trace_path(scene.world(), scene.tracer(), -d, d, sampler, {}, &trail);
+        values[p] = {result.radiance, trail.back().d.z > 0};
+    });
+    ReflectedAndPassed sum;
+    for (const Value& value : values) {
+        for (int c = 0; c < 3; ++c) {
+            sum.up[c].add(value.up ? value.radiance[c] : 0);
+            sum.down[c].add(value.up ? 0 : value.radiance[c]);
+        }
+    }
+    return sum;
+}
+
+void expect_truth(const Estimate& estimate, double truth, const std::string& what)
+{
+    EXPECT_LT(std::abs(estimate.mean() - truth), 4 * estimate.standard_error() + systematic * truth)
+        << what << ": " << estimate.mean() << " +- " << estimate.standard_error() << ", exactly " << truth;
+    std::printf("%-40s %.5f +- %.5f, exactly %.5f (%+.2f %%)\n", what.c_str(), estimate.mean(), estimate.standard_error(), truth, 100 * (estimate.mean() / truth - 1));
+}
+
+constexpr uint32_t paths = 400000;
+
+TEST(HalfSpace, ReflectsWhatTheoryKnows)
+{
+    const auto shallow = slab(150, V3d(1), C3f(0.9f), 0), deep = slab(500, V3d(1), C3f(0.99f), 0);
+    expect_truth(shine(*shallow, paths, 1, 1).up[0], 0.41495, "half-space 0.9, normal");
+    expect_truth(shine(*shallow, paths, -1, 2).up[0], 0.47802, "half-space 0.9, diffuse");
+    expect_truth(shine(*deep, paths / 4, 1, 3).up[0], 0.75272, "half-space 0.99, normal");
+    expect_truth(shine(*deep, paths / 4, -1, 4).up[0], 0.79456, "half-space 0.99, diffuse");
+}
+
+TEST(Slab, ReflectsAndPassesWhatTheoryKnows)
+{
+    const ReflectedAndPassed thin = shine(*slab(2, V3d(1), C3f(0.9f), 0.75), paths, 1, 5);
+    expect_truth(thin.up[0], 0.09739, "slab g 0.75, albedo 0.9, tau 2: R");
+    expect_truth(thin.down[0], 0.66096, "slab g 0.75, albedo 0.9, tau 2: T");
+    const ReflectedAndPassed thick = shine(*slab(10, V3d(1), C3f(1), 0), paths, 1, 6);
+    expect_truth(thick.up[0], 0.85300, "slab g 0, albedo 1, tau 10: R");
+    expect_truth(thick.down[0], 0.14700, "slab g 0, albedo 1, tau 10: T");
+}
+
+TEST(Slab, DoesNotKnowTheUnitOfLength)
+{
+    const ReflectedAndPassed one = shine(*slab(2, V3d(1), C3f(0.9f), 0.75), 2000, 0.8, 7);
+    const double scale = std::ldexp(1.0, 20);
+    const ReflectedAndPassed large = shine(*slab(2 * scale, V3d(1 / scale), C3f(0.9f), 0.75), 2000, 0.8, 7);
+    EXPECT_EQ(one.up[0].mean(), large.up[0].mean());
+    EXPECT_EQ(one.down[0].mean(), large.down[0].mean());
+    for (const double unit : {1e-6, 1e6}) expect_truth(shine(*slab(2 * unit, V3d(1 / unit), C3f(0.9f), 0.75), paths, 1, 8).down[0], 0.66096, "slab in another unit: T");
+}
+
+TEST(Slab, ChannelsThatSeeItDifferentlyAreEachRight)
+{
+    // tau 2, 10 and 0.1; single channels are known from the above or by a walk of their own.
+    const ReflectedAndPassed all = shine(*slab(1, V3d(2, 10, 0.1), C3f(0.9f, 1, 0.9f), 0), paths, 1, 9);
+    for (int c = 0; c < 3; ++c) {
+        const ReflectedAndPassed own = shine(*slab(1, V3d(c == 0 ? 2 : c == 1 ? 10 : 0.1), C3f(c == 1 ? 1 : 0.9f), 0), paths, 1, 10);
+        for (const bool up : {false, true}) {
+            const Estimate &a = up ? all.up[c] : all.down[c], &b = up ? own.up[0] : own.down[0];
+            EXPECT_LT(std::abs(a.mean() - b.mean()), 4 * std::hypot(a.standard_error(), b.standard_error())) << c << " " << up << ": " << a.mean() << " " << b.mean();
+        }
+    }
+}
+
+TEST(Slab, EndsWhateverItsDensity)
+{
+    for (const double g : {-0.99, 0.0, 0.99}) {
+        for (const double sigma_t : {0.0, 1e-12, 1e-3, 1e12}) {
+            const ReflectedAndPassed sum = shine(*slab(1, V3d(sigma_t), C3f(0.999f), g), 2000, 0.5, 11);
+            const double all = sum.up[0].mean() + sum.down[0].mean();
+            EXPECT_TRUE(std::isfinite(all) && all > 0 && all <= 1 + 1e-6) << g << " " << sigma_t << " " << all;
+            if (sigma_t <= 1e-12) {
+                EXPECT_EQ(sum.down[0].mean(), 1);
+            }
+        }
+    }
+}
+
+/// Mean radiance of rays from all around towards the middle of things.
+Estimate from_all_around(const TestScene& scene, uint32_t count, double distance, const PathOptions& options, uint64_t seed)
+{
+    std::vector<double> values(count);
+    tbb::parallel_for(uint32_t{0}, count, [&](uint32_t p) {
+        flush_subnormals();
+        Sampler sampler(seed, p, 0, 0);
+        const double u1 = sampler.next(), u2 = sampler.next();
+        const V3d o = distance * sample_sphere(u1, u2);
+        const V3d target(sampler.next() - 0.5, sampler.next() - 0.5, sampler.next() - 0.5);
+        values[p] = trace_path(scene.world(), scene.tracer(), o, (target - o).normalized(), sampler, options).radiance.x;
+    });
+    Estimate radiance;
+    for (const double value : values) radiance.add(value);
+    return radiance;
+}
+
+TEST(MediumFurnace, IsWhiteAfterAHundredThousandScatterings)
+{
+    TestScene scene; // optical radius 500, seen from its middle: about 500^2 (1 - g) / 2 scatterings
+    scene.add_medium(icosphere(3), V3d(500), C3f(1), 0.3);
+    scene.add_constant_light(1);
+    scene.build();
+    Estimate events;
+    for (uint32_t p = 0; p < 50; ++p) {
+        Sampler sampler(3, p, 0, 0);
+        const PathResult result = trace_path(scene.world(), scene.tracer(), V3d(0), V3d(0.1, 0, 1).normalized(), sampler, {});
+        EXPECT_EQ(result.radiance.x, 1);
+        EXPECT_EQ(result.leaks, 0u);
+        events.add(result.events);
+    }
+    EXPECT_GT(events.mean(), 60000);
+    std::printf("scatterings of a path: %.0f\n", events.mean());
+}
+
+/// A medium with grains and a glass surface in it, and another medium that overlaps it.
+void add_everything(TestScene& scene)
+{
+    const uint32_t glass = scene.add_type(dielectric(1.5)), white = scene.add_type(lambert(1));
+    scene.add_grain({0.1, 0, 0}, 0.3, glass);
+    scene.add_grain({-0.6, 0.2, 0.1}, 0.2, white);
+    scene.add_grain({0.6, 0.75, 0.1}, 0.3, white); // through the medium's surface
+    TriangleMesh pane = box({-0.9, -0.9, -0.6}, {0.4, 0.5, -0.5});
+    scene.add_surface(pane, dielectric(1.33));
+    scene.add_medium(cube(), V3d(3), C3f(1), 0.6);
+    TriangleMesh ball = icosphere(2);
+    for (V3d& p : ball.positions) p = 0.7 * p + V3d(0.5, 0.2, -0.4);
+    scene.add_medium(ball, V3d(5), C3f(1), -0.3);
+}
+
+TEST(MediumFurnace, IsWhiteWithGrainsAndSurfacesAndMediaInEachOther)
+{
+    TestScene constant, sampled;
+    add_everything(constant);
+    add_everything(sampled);
+    constant.add_constant_light(1);
+    Light environment;
+    environment.kind = LightKind::environment;
+    environment.map = std::make_shared<EnvironmentMap>(std::vector<C3f>(16 * 8, C3f(1)), 16, 8, V3d(0, 0, 1), C3f(1));
+    sampled.add_light(environment);
+    constant.build();
+    sampled.build();
+    EXPECT_NEAR(from_all_around(constant, 5000, 4, {}, 1).mean(), 1, 1e-6);
+    for (const DirectLight strategy : {DirectLight::both, DirectLight::lights_only, DirectLight::scattering_only}) {
+        PathOptions options;
+        options.direct_light = strategy;
+        const Estimate e = from_all_around(sampled, 100000, 4, options, 2);
+        EXPECT_LT(std::abs(e.z(1)), 4) << static_cast<int>(strategy) << ": " << e.mean() << " +- " << e.standard_error();
+        std::printf("strategy %d: %.5f +- %.5f\n", static_cast<int>(strategy), e.mean(), e.standard_error());
+    }
+}
+
+TEST(MediumLight, StrategiesAgree)
+{
+    TestScene scene;
+    scene.add_medium(cube(), V3d(2, 3, 5), C3f(0.9f, 0.95f, 1), 0.5);
+    Light lamp;
+    lamp.kind = LightKind::rectangle;
+    lamp.corner = V3d(-1, -1, 2);
+    lamp.edge1 = V3d(2, 0, 0);
+    lamp.edge2 = V3d(0, 2, 0);
+    lamp.radiance = C3f(1);
+    scene.add_light(lamp);
+    Light inner;
+    inner.kind = LightKind::sphere;
+    inner.center = V3d(0.3, 0.2, 0.1);
+    inner.radius = 0.2;
+    inner.radiance = C3f(2);
+    scene.add_light(inner);
+    scene.build();
+    std::vector<Estimate> found;
+    for (const DirectLight strategy : {DirectLight::both, DirectLight::lights_only, DirectLight::scattering_only}) {
+        PathOptions options;
+        options.direct_light = strategy;
+        found.push_back(from_all_around(scene, 200000, 4, options, 3 + found.size()));
+        std::printf("strategy %d: %.5f +- %.5f\n", static_cast<int>(strategy), found.back().mean(), found.back().standard_error());
+    }
+    for (size_t i = 1; i < 3; ++i) {
+        EXPECT_LT(std::abs(found[0].mean() - found[i].mean()), 4 * std::hypot(found[0].standard_error(), found[i].standard_error()));
+    }
+}
+
+} // namespace
+} // namespace scree
