@@ -1,6 +1,7 @@
 #include "ingest/triangle_mesh.h"
 
 #include "ingest/mesh_topology.h"
+#include "ingest/support/error.h"
 
 #include <algorithm>
 
@@ -53,6 +54,18 @@ bool is_closed_and_oriented(const TriangleMesh& mesh)
 {
     const MeshTopology topology = topology_of(mesh);
     return topology.closed && topology.oriented;
+}
+
+TriangleMesh read_closed_mesh(const std::filesystem::path& path, const std::string& because)
+{
+    TriangleMesh mesh = read_mesh(path);
+    if (!is_closed_and_oriented(mesh)) {
+        throw InputError(path.string(), "an open or inconsistently oriented mesh", "a closed mesh, " + because, "scree info says more of it");
+    }
+    if (signed_volume(mesh) < 0) {
+        for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+    }
+    return mesh;
 }
 
 Imath::Box3d bounds_of(const TriangleMesh& mesh)

@@ -33,6 +33,10 @@ struct MeshReport {
 /// Whether the surface is closed and consistently oriented (edge by edge; cheap).
 bool is_closed_and_oriented(const TriangleMesh& mesh);
 
+/// The same as read_mesh for a surface that must enclose something: closed, consistently oriented, and turned so that faces look
+/// outward. because: why it must be closed, for the InputError.
+TriangleMesh read_closed_mesh(const std::filesystem::path& path, const std::string& because);
+
 /// Signed volume by the divergence theorem, summed about the middle of the bounds.
 double signed_volume(const TriangleMesh& mesh);
 

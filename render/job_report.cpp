@@ -48,7 +48,7 @@ const char* kind_name(HitKind kind)
 
 std::string integrator_of(const SceneDescription& scene)
 {
-    return scene.integrator.has_proxies() ? "ppt" : "ept";
+    return scene.integrator.kind == IntegratorKind::automatic ? "ept" : scene.integrator.name();
 }
 
 std::string plan_text(const WorldBuilder& builder, const World& world, size_t frame)

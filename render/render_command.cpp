@@ -115,8 +115,9 @@ void add_render_command(CLI::App& app)
                         "Picture to write: .exr, or .png, .jpg for looking at; repeatable; %04d takes the frame number (default: the scene's name .exr)");
     command->add_option("--spp", job.spp, "Samples a pixel (default 64, or what --timeout allows)")->check(CLI::Range(1u, 1u << 30));
     command->add_option("--timeout", job.options.timeout, "Stop after this many seconds of rendering a frame")->check(CLI::PositiveNumber);
-    command->add_option("--integrator", a.integrator, "auto, ept (grains as they are) or ppt (grains averaged over rotations, faster)")->check(CLI::IsMember(integrator_names));
+    command->add_option("--integrator", a.integrator, "auto, ept (grains as they are), ppt (grains averaged over rotations, faster) or vpt (a medium in place of grains)")->check(CLI::IsMember(integrator_names));
     command->add_option("--accuracy", a.accuracy, "How far approximations may go: reference, high, standard or draft")->check(CLI::IsMember(accuracy_names));
+    command->add_option("--grain-depth", job.grain_depth, "With ept and ppt: how many mean radii below every face a medium stands for the grains (default: nowhere)")->check(CLI::NonNegativeNumber);
     command->add_option("--explicit-grains", job.explicit_grains, "With ppt: how many grains of a path are traced as they are (default 0)");
     command->add_option("--frames", a.frames, "Frames to render, counted from 0: A, A:B or A:B:STEP, B included (default: the first)");
     command->add_option("--size", a.size, "Size of the picture, WIDTHxHEIGHT");

@@ -172,6 +172,8 @@ private:
         integrator.kind = job.integrator.value_or(integrator.kind);
         integrator.accuracy = job.accuracy.value_or(integrator.accuracy);
         integrator.explicit_grains = job.explicit_grains.value_or(integrator.explicit_grains);
+        if (job.grain_depth) integrator.grain_depth = job.grain_depth;
+        integrator.medium_form = job.medium_form.value_or(integrator.medium_form);
         return scene;
     }
 

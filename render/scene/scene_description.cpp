@@ -3,6 +3,7 @@
 #include "ingest/support/json.h"
 #include "mixtures/read_mixture.h"
 #include "render/scene/read_grain_type.h"
+#include "render/scene/read_medium.h"
 
 #include <fmt/format.h>
 
@@ -260,6 +261,8 @@ IntegratorDescription read_integrator(const JsonValue& json)
     if (const auto accuracy = object.find("accuracy")) integrator.accuracy = static_cast<Accuracy>(accuracy->choice(accuracy_names));
     if (const auto depth = object.find("max_depth")) integrator.max_depth = static_cast<uint32_t>(depth->integer(1, 1000000000));
     if (const auto grains = object.find("explicit_grains")) integrator.explicit_grains = static_cast<uint32_t>(grains->integer(0, 1000000000));
+    if (const auto depth = object.find("grain_depth")) integrator.grain_depth = depth->number(0, largest);
+    if (const auto form = object.find("medium_form")) integrator.medium_form = static_cast<MediumForm>(form->choice(medium_form_names));
     object.done();
     return integrator;
 }
@@ -283,7 +286,7 @@ SceneDescription read_scene(const JsonDocument& document, const std::filesystem:
     }
     if (const auto grains = object.find("grains")) read_grains(*grains, scene);
     if (const auto medium = object.find("medium")) {
-        if (!medium->array().empty()) medium->fail("no medium", "this version renders grains and surfaces only");
+        for (const JsonValue& item : medium->array()) scene.media.push_back(read_medium(item));
     }
     if (const auto integrator = object.find("integrator")) {
         scene.integrator = read_integrator(*integrator);

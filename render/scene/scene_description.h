@@ -82,8 +82,24 @@ struct AssemblyDescription {
     std::string place;
 };
 
-enum class IntegratorKind : uint8_t { automatic, ept, ppt };
-inline const std::vector<std::string> integrator_names{"auto", "ept", "ppt"};
+/// A medium that the scene names: the same within a mesh, or varying as a file of OpenVDB grids has it.
+struct MediumDescription {
+    std::filesystem::path mesh, vdb;   ///< one of them
+    C3f sigma_t{1};                    ///< mesh: extinction per unit of length; vdb: the same for a density of 1
+    C3f albedo{1};
+    double g = 0;                      ///< of Henyey and Greenstein
+    std::string density = "density";   ///< vdb: names of grids
+    std::string albedo_grid, g_grid;   ///< vdb: empty where it is the same everywhere
+    bool nearest = false;              ///< vdb: no interpolation between voxels
+    std::string place;
+};
+
+enum class IntegratorKind : uint8_t { automatic, ept, ppt, vpt };
+inline const std::vector<std::string> integrator_names{"auto", "ept", "ppt", "vpt"};
+
+/// How a medium is made equivalent to grains (render/medium/continuous_equivalent.h).
+enum class MediumForm : uint8_t { plain, formula, walk, decay };
+inline const std::vector<std::string> medium_form_names{"plain", "formula", "walk", "decay"};
 
 /// How far approximations may go.
 enum class Accuracy : uint8_t { reference, high, standard, draft };
@@ -95,7 +111,12 @@ struct IntegratorDescription {
     uint32_t max_depth = 0;       ///< 0: never cut
     uint32_t explicit_grains = 0; ///< ppt: how many grains of a path are traced as they are
 
+    std::optional<double> grain_depth; ///< mean radii below every face, from where on a medium stands for the grains; absent: nowhere
+    MediumForm medium_form = MediumForm::decay;
+
     bool has_proxies() const { return kind == IntegratorKind::ppt; }
+    /// Whether a medium stands for some grains.
+    bool has_grain_medium() const { return kind == IntegratorKind::vpt || grain_depth; }
     const std::string& name() const { return integrator_names[static_cast<size_t>(kind)]; }
 };
 
@@ -111,6 +132,7 @@ struct SceneDescription {
     double metres_per_unit = 1e-3;           ///< what the scene's unit of length is to the library's materials
     std::optional<AssemblyDescription> assembly;
     MixtureDescription mixture{ExplicitDescription{}, {}, {}}; ///< which grain type each sphere is
+    std::vector<MediumDescription> media;
     IntegratorDescription integrator;
 };
 

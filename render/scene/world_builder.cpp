@@ -8,6 +8,7 @@
 #include "render/scene/content_hash.h"
 #include "render/scene/fill_builder.h"
 #include "render/scene/light_builder.h"
+#include "render/scene/medium_builder.h"
 #include "render/scene/type_builder.h"
 #include "render/lights/environment_file.h"
 
@@ -101,6 +102,7 @@ struct WorldBuilder::Impl {
     std::optional<MixtureSeries> mixtures;
     std::optional<BuiltFill> fill;
     TypeBuilder types{device, scene.integrator};
+    MediumBuilder media{scene};
     std::vector<TriangleMesh> surfaces;
     std::map<size_t, std::shared_ptr<const EnvironmentMap>> maps; // by light
     std::vector<PartReport> parts;
@@ -238,16 +240,7 @@ void WorldBuilder::Impl::make_fill(const TypeRequest& request, World& world)
 
 TriangleMesh WorldBuilder::Impl::read_surface(const SurfaceDescription& surface) const
 {
-    TriangleMesh mesh = read_mesh(surface.mesh);
-    if (!surface.material.transmits()) return mesh;
-    if (!is_closed_and_oriented(mesh)) {
-        throw InputError(surface.mesh.string(), "an open or inconsistently oriented mesh", "a closed mesh, as its material is a dielectric",
-                         "close it, or give it an opaque material");
-    }
-    if (signed_volume(mesh) < 0) {
-        for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-    }
-    return mesh;
+    return surface.material.transmits() ? read_closed_mesh(surface.mesh, "as its material is a dielectric") : read_mesh(surface.mesh);
 }
 
 void WorldBuilder::Impl::make_surfaces(World& world)
@@ -256,8 +249,10 @@ void WorldBuilder::Impl::make_surfaces(World& world)
     if (surfaces.empty()) {
         for (const auto& surface : scene.surfaces) surfaces.push_back(read_surface(surface));
     }
+    const std::vector<V3d> around_media = media.read();
     if (!world.has_grains()) {
         Bounds bounds;
+        for (const V3d& p : around_media) bounds.extend(p);
         for (const auto& mesh : surfaces) {
             for (const V3d& p : mesh.positions) bounds.extend(p);
         }
@@ -312,6 +307,9 @@ LightSet WorldBuilder::Impl::make_lights(const World& world)
     double radius2 = world.has_grains() ? 1.0 : 0.0;
     for (const Surface& surface : world.surfaces) {
         for (const V3f& p : surface.positions) radius2 = std::max(radius2, V3d(p).length2());
+    }
+    for (const MediumRegion& region : world.regions) {
+        for (const V3f& p : region.positions) radius2 = std::max(radius2, V3d(p).length2());
     }
     return LightSet(std::move(lights), std::sqrt(radius2));
 }
@@ -369,6 +367,8 @@ std::shared_ptr<const World> WorldBuilder::build(size_t frame, const Progress& p
         impl_->parts.push_back({"grains", false, "the scene has none"});
     }
     impl_->make_surfaces(*world);
+    impl_->hash = impl_->media.build(*world, impl_->parts, impl_->hash);
+    if (impl_->scene.media.empty()) impl_->parts.push_back({"medium", false, "the scene has none"});
     world->lights = impl_->make_lights(*world);
     return world;
 }

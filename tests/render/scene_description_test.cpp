@@ -232,6 +232,26 @@ TEST(SceneDescription, ReadsIntegrators)
     EXPECT_EQ(read_with(R"("integrator": {"kind": "ppt", "explicit_grains": 2})").integrator.explicit_grains, 2u);
 }
 
+TEST(SceneDescription, ReadsMedia)
+{
+    const SceneDescription scene = read_with(R"("medium": [{"mesh": "slab.off", "sigma_t": [1, 2, 3], "albedo": 0.9, "g": -0.5},
+        {"vdb": "cloud.vdb", "density": "rho", "scale": 10, "albedo": "colour", "g": 0.85, "interpolation": "nearest"}], "integrator": {"kind": "vpt", "grain_depth": 4, "medium_form": "walk"})");
+    ASSERT_EQ(scene.media.size(), 2u);
+    EXPECT_EQ(scene.media[0].mesh.filename(), "slab.off");
+    EXPECT_EQ(scene.media[0].sigma_t, C3f(1, 2, 3));
+    EXPECT_EQ(scene.media[0].albedo, C3f(0.9f));
+    EXPECT_EQ(scene.media[0].g, -0.5);
+    EXPECT_EQ(scene.media[1].vdb.filename(), "cloud.vdb");
+    EXPECT_EQ(scene.media[1].density, "rho");
+    EXPECT_EQ(scene.media[1].sigma_t, C3f(10));
+    EXPECT_EQ(scene.media[1].albedo_grid, "colour");
+    EXPECT_EQ(scene.media[1].g, 0.85);
+    EXPECT_TRUE(scene.media[1].nearest);
+    EXPECT_EQ(scene.integrator.kind, IntegratorKind::vpt);
+    EXPECT_EQ(scene.integrator.grain_depth, 4);
+    EXPECT_EQ(scene.integrator.medium_form, MediumForm::walk);
+}
+
 TEST(SceneDescription, TakesNullForAbsent)
 {
     EXPECT_EQ(read_with(R"("film": null, "integrator": {"max_depth": null}, "medium": null)").film.width, 640);
@@ -353,8 +373,17 @@ const std::vector<Wrong> wrong_scenes{
     {R"("grains": {"types": {)" + clay + R"(}, "assembly": {"spheres": []}, "mixture": {"kind": "perlin"}})", "/grains/mixture", "no key 'types'", "'types'", ""},
     {R"("grains": {"types": {)" + clay + R"(}, "assembly": {"spheres": []}, "mixture": {"kind": "perlim"}})", "/grains/mixture/kind", "\"perlim\"", "perlin", "did you mean 'perlin'?"},
     {R"("grains": {"types": {)" + clay + R"(}, "assembly": {"spheres": []}, "mixture": "cly"})", "/grains/mixture", "\"cly\"", "clay", "did you mean 'clay'?"},
-    {R"("medium": [{"mesh": "slab.off"}])", "/medium", "slab.off", "no medium", "grains and surfaces only"},
-    {R"("integrator": {"kind": "epd"})", "/integrator/kind", "\"epd\"", "auto, ept, ppt", "did you mean 'ept'?"},
+    {R"("medium": [{"mesh": "slab.off"}])", "/medium/0", "no key 'sigma_t'", "'sigma_t'", ""},
+    {R"("medium": [{"sigma_t": 1}])", "/medium/0", "sigma_t", "either the key 'mesh'", "slab.off"},
+    {R"("medium": [{"mesh": "slab.off", "vdb": "cloud.vdb"}])", "/medium/0", "cloud.vdb", "either the key 'mesh'", ""},
+    {R"("medium": [{"mesh": "slab.off", "sigma_t": -1}])", "/medium/0/sigma_t", "-1", "0..", ""},
+    {R"("medium": [{"mesh": "slab.off", "sigma_t": 1, "albedo": 1.5}])", "/medium/0/albedo", "1.5", "0..1", ""},
+    {R"("medium": [{"mesh": "slab.off", "sigma_t": 1, "g": 1}])", "/medium/0/g", "1", "-1..1", ""},
+    {R"("medium": [{"mesh": "slab.off", "sigma_t": 1, "density": "rho"}])", "/medium/0", "'density'", "", ""},
+    {R"("medium": [{"vdb": "cloud.vdb", "interpolation": "cubic"}])", "/medium/0/interpolation", "cubic", "linear, nearest", ""},
+    {R"("integrator": {"grain_depth": -1})", "/integrator/grain_depth", "-1", "0..", ""},
+    {R"("integrator": {"medium_form": "wlk"})", "/integrator/medium_form", "wlk", "plain, formula, walk, decay", "did you mean 'walk'?"},
+    {R"("integrator": {"kind": "epd"})", "/integrator/kind", "\"epd\"", "auto, ept, ppt, vpt", "did you mean 'ept'?"},
     {R"("integrator": {"explicit_grains": -1})", "/integrator/explicit_grains", "-1", "0..", ""},
     {R"("integrator": {"accuracy": "best"})", "/integrator/accuracy", "\"best\"", "reference, high, standard, draft", ""},
     {R"("integrator": {"max_depth": 0})", "/integrator/max_depth", "0", "1..", ""},

@@ -36,7 +36,7 @@ GOOD = {
         "assembly": {"dump": "two.dump", "types": {"1": "glass", "2": "pebble"}, "radius": {"1": 0.5, "2": 0.25}},
         "mixture": {"kind": "explicit"},
     },
-    "medium": [],
+    "medium": [{"mesh": "tetra.obj", "sigma_t": [1, 2, 3], "albedo": 0.9, "g": 0.5}],
     "integrator": {"kind": "auto", "accuracy": "standard", "max_depth": 9},
 }
 
@@ -46,7 +46,7 @@ REMOVE = object()
 GOOD_CHANGES = [
     ((), {}),
     (("$schema",), "scene.schema.json"),
-    (("film",), REMOVE), (("lights",), REMOVE), (("lights",), []), (("surfaces",), REMOVE), (("grains",), REMOVE), (("medium",), REMOVE),
+    (("film",), REMOVE), (("lights",), REMOVE), (("lights",), []), (("surfaces",), REMOVE), (("grains",), REMOVE), (("medium",), REMOVE), (("medium",), []), (("medium", 0, "albedo"), [0, 0, 1]), (("medium", 0, "g"), -0.99), (("integrator", "kind"), "vpt"), (("integrator", "medium_form"), "plain"),
     (("integrator",), REMOVE), (("integrator",), {}), (("integrator", "kind"), "ept"), (("integrator", "kind"), "ppt"), (("integrator", "explicit_grains"), 1), (("integrator", "max_depth"), 1),
     (("camera",), {"origin": [0, 1, 0], "target": [0, 0, 0]}),
     (("camera",), {"kind": "orthographic", "origin": [0, 1, 0], "target": [0, 0, 0], "width": 4, "aperture": 1, "focus": 2}),
@@ -118,6 +118,8 @@ BAD_CHANGES = [
     (("grains", "mixture"), {}), (("grains", "mixture", "kind"), "perlin"), (("grains", "mixture", "kind"), "marble"),
     (("grains", "mixture"), {"kind": "random", "types": []}), (("grains", "mixture"), 3), (("grains", "mixture", "seed"), 1), (("grains", "mixture"), {"file": ""}),
     (("grains", "seed"), 1),
+    (("medium", 0, "sigma_t"), REMOVE), (("medium", 0, "mesh"), REMOVE), (("medium", 0, "g"), 1), (("medium", 0, "albedo"), 1.1), (("medium", 0, "sigma_t"), -1),
+    (("medium", 0, "density"), "density"), (("integrator", "grain_depth"), -1), (("integrator", "medium_form"), "best"),
     (("medium",), [{"mesh": "slab.off"}]), (("medium",), {}), (("integrator",), "ept"), (("integrator", "kind"), "epd"), (("integrator", "explicit_grains"), -1), (("integrator", "accuracy"), "best"),
     (("integrator", "max_depth"), 0), (("integrator", "max_depth"), 1.5), (("integrator", "depth"), 3), (("$schema",), 3), (("lihgts",), []),
 ]

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "ingest/triangle_mesh.h"
+#include "render/scene/part_report.h"
+#include "render/scene/scene_description.h"
+#include "render/scene/world.h"
+
+#include <vector>
+
+namespace scree {
+
+/// Makes the media that a scene names into regions of worlds; files are read once.
+class MediumBuilder {
+public:
+    /// Throws InputError when there are more media than a path can tell apart.
+    explicit MediumBuilder(const SceneDescription& scene);
+
+    /// Reads what has not been read, and the points that bound it, scene coordinates. Throws InputError.
+    std::vector<V3d> read();
+    /// Adds the media to `world`, whose space is set, and a report on each. Returns `hash` with their files mixed in.
+    uint64_t build(World& world, std::vector<PartReport>& parts, uint64_t hash) const;
+
+private:
+    const SceneDescription& scene_;
+    std::vector<TriangleMesh> meshes_; ///< by medium
+};
+
+} // namespace scree
