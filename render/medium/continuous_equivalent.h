@@ -1,40 +1,39 @@
 #pragma once
 
-#include "render/medium/grain_moments.h"
+#include "render/medium/mixture_moments.h"
+#include "render/medium/packing_walk.h"
 
-#include <span>
+#include <string>
 
 namespace scree {
 
-/// Grains of one type and radius in a mixture.
-struct GrainShare {
-    const Gsdf* gsdf = nullptr;
-    const GrainMoments* moments = nullptr; ///< of the GSDF, or null: then they are taken
-    Material material;                     ///< absorption per the caller's unit of length
-    double radius = 1;                     ///< of the bounding sphere, in the caller's unit of length
-    double number = 1;                     ///< weight by number
+/// How the medium that stands for a packing is found.
+enum class EquivalentForm : uint8_t {
+    plain,      ///< the mean flight and the grains' own albedo and phase function; ways within grains are left out
+    formula,    ///< keeps transport length and diffusivity of independent flights
+    walk,       ///< keeps those of a walk in the packing
+    walk_decay, ///< and in each channel how light dies away deep in the packing
 };
 
-/// What light meets from scattering to scattering in a packing, its flights independent of each other; in the caller's unit of length.
+/// A homogeneous medium of Henyey-Greenstein scattering that stands for a packing; per the caller's unit of length.
+struct ContinuousEquivalent {
+    EquivalentForm form = EquivalentForm::plain;
+    double sigma_t = 0;          ///< achromatic
+    V3d albedo{1};
+    double g = 0;
+    MixtureMoments moments;      ///< what the grains do; `moments.phase` goes with the plain form
+    double diffusivity = 0;      ///< D and l* that the medium has
+    double transport_length = 0;
+    /// exp(-decay z): how light dies away deep in the medium, per channel.
+    V3d decay{0};
+    std::string doubt;           ///< what was out of a medium's reach, empty if nothing
+};
+
+/// The medium of a mixture of grains at a pack rate. walk: in the same unit of length, needed by the forms that use it (throws
+/// std::invalid_argument without), and of a world of the same grains. Throws InputError as mixture_moments.
 ///
-/// Scatterings are weighted by cross-section, n r^2 (1 - alpha0). Flights in the voids are taken to be exponential; where a grain
-/// is passed straight through, its chord and a further flight are added.
-struct MixtureMoments {
-    double void_flight = 0;              ///< l_v = 4 (1 - f) <r^3> / (3 f <r^2>), exact for any packing
-    double flight = 0, flight2 = 0;      ///< mean and mean square of the way from scattering to scattering
-    double g = 0;                        ///< mean cosine
-    double along_in = 0, along_out = 0, delta2 = 0; ///< of the way within grains, as in GrainMoments
-    V3d albedo{1};                       ///< mean weight of a scattering
-    V3d weighted_cosine{0};
-    CosineTable phase;
-
-    /// How far light goes along its direction until that is forgotten: l* = (l + a) / (1 - g).
-    double transport_length() const { return (flight + along_in) / (1 - g); }
-    /// D = lim <x^2> / (2 n) after n scatterings: (m2 + 2 l a + <delta^2>) / 2 + (l g + b) (l + a) / (1 - g).
-    double diffusivity() const;
-};
-
-/// fraction: of the volume that the bounding spheres fill, in (0, 1). Throws InputError for other numbers, and where nothing scatters.
-MixtureMoments mixture_moments(std::span<const GrainShare> shares, double fraction);
+/// A walk of point scatterings and exponential flights has D = 1 / (sigma_t^2 (1 - g)) and l* = 1 / (sigma_t (1 - g)); hence
+/// 1 / sigma_t = D / l*, 1 - g = D / l*^2.
+ContinuousEquivalent continuous_equivalent(const MixtureMoments& moments, EquivalentForm form, const PackingWalk* walk = nullptr);
 
 } // namespace scree
