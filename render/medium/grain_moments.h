@@ -1,0 +1,44 @@
+#pragma once
+
+#include "render/gsdf/gsdf.h"
+
+#include <array>
+
+namespace scree {
+
+/// Cosines of scattering angles in bins of equal width from -1 to 1: the phase function of a table.
+struct CosineTable {
+    static constexpr uint32_t bins = 64;
+    std::array<double, bins> density{}; ///< per unit of cosine; integrates to 1
+
+    static uint32_t bin(double cosine) { return static_cast<uint32_t>(std::clamp(0.5 * (cosine + 1) * bins, 0.0, bins - 1.0)); }
+    static constexpr double width() { return 2.0 / bins; }
+};
+
+/// What one encounter with a grain does to light in the mean over impacts and rotations, in radii of the bounding sphere.
+///
+/// Light comes as in a packing, from everywhere: uniform in q. `delta` is the way from the entry into the bounding sphere to the
+/// exit from it. What a grain of a reciprocal material does backwards is as likely, so that along_in = along_out but for
+/// the noise of the records.
+struct GrainMoments {
+    double alpha0 = 0;                     ///< probability of passing straight through
+    double pass_chord = 0, pass_chord2 = 0; ///< mean chord of the passes, and mean square
+    double g = 0;                          ///< mean cosine of the scattered, lossless
+    double along_in = 0, along_out = 0;    ///< means of delta . w_in and delta . w_out
+    double delta2 = 0;                     ///< mean of delta^2
+    CosineTable phase;
+};
+
+/// The moments of scattering as an integrator samples it: strata interpolated in q, cells by their mass, records within them.
+GrainMoments grain_moments(const Gsdf& gsdf);
+
+/// What a grain's scattering keeps of light: means over scattered light, per channel.
+struct GrainAlbedo {
+    V3d weight{1};        ///< mean of the weight
+    V3d weighted_cosine{0}; ///< mean of weight times cosine; over `weight` it is the asymmetry of what is kept
+};
+
+/// material and radius as for Gsdf::weight.
+GrainAlbedo grain_albedo(const Gsdf& gsdf, const Material& material, double radius);
+
+} // namespace scree
