@@ -2,6 +2,7 @@
 
 #include "render/integrators/path.h"
 #include "render/medium/phase_function.h"
+#include "render/warp.h"
 
 #include <bit>
 
@@ -49,7 +50,7 @@ C3f Path::media_transmittance(RegionSet regions, const V3d& o, const V3d& d, dou
 
 bool Path::step_through_media(Hit& met)
 {
-    if (regions_ != 0) { // far from everything there is nothing to meet but the medium
+    if (regions_ != 0 && !emerging_) { // far from everything there is nothing to meet but the medium
         const double clear = media_->clearance(o_);
         if (clear > passed_) {
             if (const MediumEvent event = medium_event(passed_, clear); event.scattered) return handle_medium(event, met);
@@ -59,10 +60,10 @@ bool Path::step_through_media(Hit& met)
     ++result_.segments;
     Crossing crossing;
     const bool crosses = media_->next(o_, d_, passed_, infinite, crossed_ ? &crossing_ : nullptr, crossing);
-    const Hit hit = tracer_.intersect(o_, d_, from_, detail(regions_), beyond_);
+    const Hit hit = tracer_.intersect(o_, d_, from_, emerging_ ? detail() : detail(regions_), beyond_);
     const double next = hit.place.kind == HitKind::none ? infinite : hit.t;
     const double end = crosses ? std::min(crossing.t, next) : next;
-    if (regions_ != 0) {
+    if (regions_ != 0 && !emerging_) {
         if (const MediumEvent event = medium_event(passed_, end); event.scattered) return handle_medium(event, met);
     }
     if (crosses && crossing.t <= next) {
@@ -84,17 +85,39 @@ bool Path::step_through_media(Hit& met)
 
 void Path::handle_crossing(const Crossing& crossing)
 {
-    const bool among_grains = detail(regions_) != GrainDetail::none;
+    const RegionSet before = regions_;
     regions_ = RegionTracer::after(regions_, crossing);
     crossing_ = crossing;
     crossed_ = true;
     passed_ = crossing.t;
-    if (among_grains || detail(regions_) == GrainDetail::none) return;
-    // Among grains again: the ray has not been there before, and starts anew in the void between them.
+    if (emerging_ || detail(before) != GrainDetail::none || detail(regions_) == GrainDetail::none) {
+        emerging_ = false;
+        return;
+    }
+    // Among grains again: the ray has not been there before, and starts anew.
+    const V3d place = o_ + crossing.t * d_;
     attenuate(surrounding_, crossing.t);
     moved_ += crossing.t;
-    start_ray(void_point(o_ + crossing.t * d_), d_, {});
+    start_ray(void_point(place, crossing), d_, {});
     last_.elsewhere = true;
+}
+
+V3d Path::void_point(const V3d& place, const Crossing& crossing)
+{
+    constexpr int tries = 32; // each finds the void with its part of the volume
+    constexpr double reach = 3;
+    V3d point = place;
+    Hit around = tracer_.grain_around(point, d_);
+    if (around.place.kind == HitKind::none) return point;
+    const Frame frame(media_->normal(crossing));
+    const double radius = reach * world_.sphere(around.place.index).radius;
+    for (int i = 0; i < tries && around.place.kind != HitKind::none; ++i) {
+        const double u = sampler_.next(), v = sampler_.next();
+        const V2d offset = radius * sample_disk(u, v);
+        point = place + offset.x * frame.s + offset.y * frame.t;
+        around = tracer_.grain_around(point, d_);
+    }
+    return point;
 }
 
 bool Path::handle_medium(const MediumEvent& event, Hit& met)
@@ -171,12 +194,10 @@ C3f Path::passing_media(V3d o, const V3d& d, double distance, Place from, uint32
         distance -= length;
         from = {};
         if (grains == GrainDetail::none && detail(regions) != GrainDetail::none) {
-            o = void_point(o);
+            o = void_point(o, crossing);
             crossing.region = RegionTracer::most_regions; // another place: any triangle may be met
         }
     }
 }
-
-V3d Path::void_point(const V3d& o) { return o; }
 
 } // namespace scree

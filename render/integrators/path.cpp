@@ -28,6 +28,7 @@ PathResult Path::run(V3d o, V3d d, std::vector<PathVertex>* trail)
         }
         if (trail) trail->push_back({start, direction, hit, inside, weight_, result_.radiance});
     }
+    result_.last_direction = d_;
     return result_;
 }
 

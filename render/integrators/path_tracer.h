@@ -32,6 +32,7 @@ struct PathVertex {
 
 struct PathResult {
     C3f radiance{0};
+    V3d last_direction{0}; ///< in which it left, or met its light
     FirstHit first;
     uint32_t segments = 0; ///< rays traced, shadow rays not counted
     uint32_t shadow_rays = 0;

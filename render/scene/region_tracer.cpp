@@ -95,6 +95,11 @@ RegionTracer::RegionTracer(std::shared_ptr<const EmbreeDevice> device, const Wor
 
 RegionTracer::~RegionTracer() = default;
 
+V3d RegionTracer::normal(const Crossing& crossing) const
+{
+    return unit_normal(corners_of(impl_->world.regions[crossing.region], crossing.triangle));
+}
+
 bool RegionTracer::next(const V3d& o, const V3d& d, double tmin, double tmax, const Crossing* last, Crossing& crossing) const
 {
     // What rounding to float may do to a ray: it starts that much early, and not farther away than a few times the regions' size.

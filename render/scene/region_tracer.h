@@ -43,6 +43,8 @@ public:
         const RegionSet bit = RegionSet{1} << crossing.region;
         return crossing.enters ? from | bit : from & ~bit;
     }
+    /// Of the surface, outwards.
+    V3d normal(const Crossing& crossing) const;
     /// The regions that stand for grains.
     RegionSet instead_of_grains() const { return instead_of_grains_; }
     /// No surface, light or region's surface is nearer to p than this.

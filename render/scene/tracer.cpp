@@ -103,7 +103,7 @@ bool TracerQuery::offer(const Place& what, double t)
 
 bool TracerQuery::offer_sphere(const Place& grain, const GrainSphere& sphere, double t)
 {
-    if (t <= beyond) return false;
+    if (t <= beyond || (around && !((*around - sphere.centre).length2() < sphere.radius * sphere.radius))) return false;
     if (attenuates && t < best) {
         const V3d to = sphere.centre - o;
         const double along = to.dot(d);
@@ -214,6 +214,23 @@ Tracer::Tracer(std::shared_ptr<const EmbreeDevice> device, const World& world)
 Tracer::~Tracer() = default;
 
 RTCSceneTy* Tracer::embree_scene() const { return impl_->scene; }
+Hit Tracer::grain_around(const V3d& place, const V3d& d) const
+{
+    const double back = 2 * impl_->largest_radius * (1 + 0x1p-10);
+    TracerQuery query(*impl_, place - back * d, d, {HitKind::grain, std::numeric_limits<uint64_t>::max()});
+    query.around = &place;
+    query.proxies = true;
+    query.best = back;
+    query.advanced = -impl_->world.margin().step_back;
+    RTCRayHit ray = make_ray(query.o + query.advanced * d, d, query.embree_end());
+    rtcOccluded1(impl_->scene, &query.context, &ray.ray);
+    if (impl_->fill && query.place.kind == HitKind::none) impl_->fill->find_any(query);
+    if (query.place.kind != HitKind::grain) return {};
+    Hit hit = make_hit(query);
+    hit.t -= back;
+    return hit;
+}
+
 const RegionTracer* Tracer::regions() const { return impl_->regions.get(); }
 double Tracer::scene_radius() const { return impl_->radius; }
 

@@ -58,6 +58,10 @@ public:
     /// The surface that cuts the way from a to b, if there is one. For worlds with proxies; others may always say none.
     Hit surface_between(const V3d& a, const V3d& b) const;
 
+    /// A grain whose bounding sphere a place lies in, as met by a ray that passes there along d: t, below 0, is where it enters the
+    /// sphere. Kind none: there is no grain. For worlds in which a medium stands for some grains.
+    Hit grain_around(const V3d& place, const V3d& d) const;
+
     /// The surfaces of the media; null where there is no medium.
     const RegionTracer* regions() const;
 

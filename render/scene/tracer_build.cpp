@@ -23,6 +23,10 @@ Tracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const World& wor
         rtcSetSceneFlags(surface_scene, RTC_SCENE_FLAG_ROBUST);
     }
     const bool some_replaced = std::ranges::any_of(world.regions, &MediumRegion::instead_of_grains);
+    if (some_replaced) {
+        largest_radius = world.fill ? world.fill->largest_radius() : 0;
+        for (uint64_t i = 0; i < grains.size(); ++i) largest_radius = std::max<double>(largest_radius, grains.radius(i));
+    }
     if (some_replaced && grains.size() > 0) {
         open_scene = rtcNewScene(device->get());
         rtcSetSceneFlags(open_scene, RTC_SCENE_FLAG_ROBUST);

@@ -28,6 +28,7 @@ struct Tracer::Impl {
     RTCScene surface_scene = nullptr;   // surfaces alone, for rays inside grains; null when no ray can be inside one
     uint32_t first_light = first_surface;
     std::vector<uint32_t> light_of_id;  // geometry id - first_light -> light
+    double largest_radius = 0;          // of a grain, where a medium stands for some
     double mesh_reach = 0;              // the largest diameter of a mesh grain: how far on a sphere around a ray's start ends
     double radius = 0;
     std::unique_ptr<const RegionTracer> regions; // where there are media
@@ -58,6 +59,7 @@ struct TracerQuery {
     uint32_t target = no_light;  // a light that does not count
     bool proxies = false;        // grains count as their bounding spheres
     bool attenuates = false;     // proxies let light through, and do not count when they let all of it
+    const V3d* around = nullptr; // only spheres that this place lies in count
     double passed = 1;           // by the proxies so far
     double beyond = 0;           // proxies up to there do not count
     double best = std::numeric_limits<double>::infinity(); // from o; nothing farther is accepted
