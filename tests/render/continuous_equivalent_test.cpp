@@ -2,7 +2,7 @@
 
 #include "render/gsdf/encounter.h"
 #include "render/gsdf/gsdf_builder.h"
-#include "render/medium/continuous_equivalent.h"
+#include "render/medium/mixture_moments.h"
 #include "render/medium/decay_constant.h"
 #include "render/warp.h"
 #include "tests/builders/scenes.h"
