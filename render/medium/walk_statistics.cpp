@@ -2,18 +2,6 @@
 
 namespace scree {
 
-namespace {
-
-/// sinh(x) / x.
-double sinhc(double x)
-{
-    if (x < 1e-2) return 1 + x * x / 6 * (1 + x * x / 20);
-    const double e = std::exp(x);
-    return 0.5 * (e - 1 / e) / x;
-}
-
-} // namespace
-
 Measured measured_ratio(std::span<const double> above, std::span<const double> below)
 {
     const double n = static_cast<double>(above.size());
@@ -66,7 +54,7 @@ void WalkBatch::add(const WalkTrail& trail)
     walks_.push_back(nodes_.size());
     V3d kept(0);
     for (size_t i = 0; i <= n; ++i) {
-        nodes_.push_back({V3f(trail.position[i] - trail.position[0]), {static_cast<float>(kept.x), static_cast<float>(kept.y), static_cast<float>(kept.z)}});
+        nodes_.push_back({V3f(trail.position[i] - trail.position[0]), V3f(trail.direction[i]), {static_cast<float>(kept.x), static_cast<float>(kept.y), static_cast<float>(kept.z)}});
         if (i == n) break;
         for (int c = 0; c < 3; ++c) kept[c] += std::log(std::max(trail.kept[i][c], 1e-30));
     }
@@ -137,88 +125,41 @@ PackingDecay WalkStatistics::decay(int channel) const
     PackingDecay decay;
     decay.albedo = albedo()[channel];
     if (decay.albedo >= 1) return decay;
-    const uint32_t longest = 2 * (batches_.empty() ? 0 : batches_.front().memory_);
-    // Of light dimmed by so much that it matters and so little that it can be counted.
-    const double steps = 0.5 / -std::log(std::max(decay.albedo, 1e-6));
-    decay.steps = static_cast<uint32_t>(std::clamp(std::round(steps), 2.0, static_cast<double>(longest)));
+    const uint32_t longest = batches_.empty() ? 0 : 2 * batches_.front().memory_;
+    // Few scatterings will do, but what they lose must be seen; of many, the few ways that lead far decide.
+    const double per_step = -std::log(std::max(decay.albedo, 1e-6)), most = std::min<double>(longest, std::max(4.0, 2.5 / per_step));
+    decay.steps = static_cast<uint32_t>(std::clamp(std::round(0.25 / per_step), 2.0, 0.5 * most));
+    decay.check = decay_of_steps(channel, decay.steps);
+    decay.steps *= 2;
     decay.kappa = decay_of_steps(channel, decay.steps);
-    while (2 * decay.steps <= longest) {
+    while (2 * decay.steps <= most && std::abs(decay.kappa.value - decay.check.value) > 2 * decay.kappa.error) {
         const Measured next = decay_of_steps(channel, 2 * decay.steps);
-        const bool agrees = std::abs(next.value - decay.kappa.value) <= next.error, known = next.error < 0.03 * next.value;
-        if (!known) break;
+        if (!(next.error < 0.01 * next.value)) break;
         decay.check = decay.kappa;
         decay.kappa = next;
         decay.steps *= 2;
-        if (agrees) break;
     }
     return decay;
 }
 
 Measured WalkStatistics::decay_of_steps(int channel, uint32_t steps) const
 {
-    // A way of 2 n scatterings and the first half of it.
-    struct Way {
-        float near, far, near_kept, far_kept;
-    };
     const auto c = static_cast<size_t>(channel);
-    std::vector<std::vector<Way>> ways(batches_.size());
-    double largest = 0;
+    std::vector<std::vector<DecayWay>> ways(batches_.size());
     for (size_t b = 0; b < batches_.size(); ++b) {
         const auto& nodes = batches_[b].nodes_;
         const auto& walks = batches_[b].walks_;
         for (size_t walk = 0; walk < walks.size(); ++walk) {
             const size_t end = walk + 1 < walks.size() ? walks[walk + 1] : nodes.size();
-            // Ways that overlap by more than half tell little more.
-            for (size_t i = walks[walk]; i + 2 * steps < end; i += steps) {
-                const auto &from = nodes[i], &near = nodes[i + steps], &far = nodes[i + 2 * steps];
-                ways[b].push_back({(near.position - from.position).length(), (far.position - from.position).length(),
-                                   std::exp(near.kept[c] - from.kept[c]), std::exp(far.kept[c] - from.kept[c])});
-                largest = std::max<double>(largest, ways[b].back().far);
+            for (size_t i = walks[walk]; i + steps < end; i += std::max(1u, steps / 2)) {
+                const auto &from = nodes[i], &to = nodes[i + steps];
+                const V3f way = to.position - from.position, along = way.normalized();
+                ways[b].push_back({way.length(), along.dot(from.direction), along.dot(to.direction), from.direction.dot(to.direction),
+                                   std::exp(to.kept[c] - from.kept[c])});
             }
         }
     }
-    if (largest == 0) return {};
-    std::vector<double> excess(batches_.size()); // of the far sum over the near one, per batch
-    const auto evaluate = [&](double kappa) {
-        double sum = 0;
-        for (size_t b = 0; b < ways.size(); ++b) {
-            excess[b] = 0;
-            for (const Way& way : ways[b]) excess[b] += way.far_kept * sinhc(kappa * way.far) - way.near_kept * sinhc(kappa * way.near);
-            sum += excess[b];
-        }
-        return sum;
-    };
-    // The excess is negative at 0 and grows. A bracket, then regula falsi (Illinois) in kappa^2, in which it is nearly linear.
-    const double at_zero = evaluate(0);
-    if (!(at_zero < 0)) return {};
-    double low = 0, high = std::pow(1 / largest, 2), at_low = at_zero, at_high = evaluate(std::sqrt(high));
-    while (at_high < 0 && std::sqrt(high) * largest < 300) {
-        low = high;
-        at_low = at_high;
-        high *= 4;
-        at_high = evaluate(std::sqrt(high));
-    }
-    if (at_high < 0) return {};
-    double root = high;
-    for (int i = 0; i < 40 && high - low > 1e-9 * high; ++i) {
-        root = low - at_low * (high - low) / (at_high - at_low);
-        const double at = evaluate(std::sqrt(root));
-        if (std::abs(at) < -1e-7 * at_zero) break;
-        if (at < 0) {
-            low = root;
-            at_low = at;
-            at_high *= 0.5;
-        } else {
-            high = root;
-            at_high = at;
-            at_low *= 0.5;
-        }
-    }
-    const double kappa = std::sqrt(root), above = evaluate(kappa * 1.001), slope = (above - evaluate(kappa)) / (0.001 * kappa);
-    double residual2 = 0;
-    for (const double x : excess) residual2 += x * x;
-    const double n = static_cast<double>(batches_.size());
-    return {kappa, std::sqrt(residual2 * n / (n - 1)) / slope};
+    return decay_of_ways(ways);
 }
 
 uint32_t walk_memory(double g)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/math.h"
+#include "render/medium/packing_decay.h"
 
 #include <array>
 #include <cstdint>
@@ -8,11 +9,6 @@
 #include <vector>
 
 namespace scree {
-
-/// A number that was measured, with its standard error.
-struct Measured {
-    double value = 0, error = 0;
-};
 
 /// The estimate of a ratio of sums from batches, each with its own sums above and below.
 Measured measured_ratio(std::span<const double> above, std::span<const double> below);
@@ -31,8 +27,8 @@ struct WalkTrail {
 struct PackingDecay {
     double albedo = 1;  ///< mean weight of a scattering
     Measured kappa;     ///< per unit of length; 0 where nothing is lost
-    uint32_t steps = 0; ///< n: kappa is from n and 2 n scatterings
-    Measured check;     ///< the same from n / 2 and n; 0 where n could not be halved
+    uint32_t steps = 0; ///< scatterings of the ways that it is from
+    Measured check;     ///< from ways of half as many
 };
 
 /// Sums over the walks of one batch, and their places; batches may be filled by different threads.
@@ -45,7 +41,7 @@ public:
 private:
     friend class WalkStatistics;
     struct Node {
-        V3f position;               // from the walk's start
+        V3f position, direction;    // from the walk's start
         std::array<float, 3> kept;  // logarithm of, up to here
     };
     /// Over windows of `memory` scatterings after a step Y with direction w.
@@ -81,10 +77,8 @@ public:
     Measured half_diffusivity() const { return diffusivity(&WalkBatch::half_); }
     Measured half_transport_length() const { return transport_length(&WalkBatch::half_); }
     V3d albedo() const;
-    /// exp(kappa z) averaged over directions is sinh(kappa r) / (kappa r); kappa is where its mean over ways of n scatterings, weighted
-    /// by what they keep, is the same for n and 2 n. n is doubled until kappa stays the same within its error.
+    /// By ways of so many scatterings that twice as many would say the same, or too little.
     PackingDecay decay(int channel) const;
-    /// That of one n. 0 where nothing is lost, or no walk is so long.
     Measured decay_of_steps(int channel, uint32_t steps) const;
 
 private:
