@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include <chrono>
+#include <mutex>
 
 namespace scree {
 
@@ -133,6 +134,8 @@ Walked run(const Walker& walker, uint64_t seed, uint64_t scatterings, double lin
     Walked walked{std::vector<WalkBatch>(batch_count, WalkBatch(memory)), std::vector<Tally>(batch_count)};
     const uint64_t enough = scatterings / batch_count + 1;
     const auto most_lines = static_cast<uint32_t>(std::min<uint64_t>(1000 + 100 * (enough / length + 1), 1u << 31));
+    std::mutex told;
+    double done = 0;
     tbb::parallel_for(uint32_t{0}, batch_count, [&](uint32_t b) {
         flush_subnormals();
         WalkTrail trail;
@@ -144,6 +147,8 @@ Walked run(const Walker& walker, uint64_t seed, uint64_t scatterings, double lin
                 if (walker.walk(entry, line.direction, length, sampler, trail, tally)) walked.batches[b].add(trail);
             }
         }
+        const std::lock_guard lock(told);
+        progress.update("walks in the packing", ++done / batch_count);
     });
     if (progress.cancelled()) throw Cancelled();
     return walked;

@@ -134,7 +134,7 @@ PackingDecay WalkStatistics::decay(int channel) const
     decay.kappa = decay_of_steps(channel, decay.steps);
     while (2 * decay.steps <= most && std::abs(decay.kappa.value - decay.check.value) > 2 * decay.kappa.error) {
         const Measured next = decay_of_steps(channel, 2 * decay.steps);
-        if (!(next.error < 0.01 * next.value)) break;
+        if (!(next.error < 0.015 * next.value)) break;
         decay.check = decay.kappa;
         decay.kappa = next;
         decay.steps *= 2;
