@@ -40,6 +40,7 @@ int main(int argc, char** argv)
             const TileBed bed(sphere_tile(f, 1000), 1, type, 200 * mixture.flight);
             PackingWalkOptions options;
             options.scatterings = scatterings;
+            options.memory = static_cast<uint32_t>(argc > 3 ? std::atoi(argv[3]) : 0);
             options.start_radius = 0.2 * bed.half();
             options.safe_radius = 0.95 * bed.half();
             const PackingWalk walk = walk_packing(bed.world(), bed.tracer(), options);

@@ -96,13 +96,14 @@ GrainMoments grain_moments(const Gsdf& gsdf)
 
 GrainAlbedo grain_albedo(const Gsdf& gsdf, const Material& material, double radius)
 {
-    GrainAlbedo albedo{V3d(0), V3d(0)};
+    // Of what is lost, so that nothing lost is nothing.
+    GrainAlbedo albedo{V3d(1), V3d(0)};
     const auto impacts = stratum_impacts(gsdf);
     for (uint32_t s = 0; s < Gsdf::strata; ++s) {
         if (!(impacts[s].mass > 0)) continue;
         for_each_record(gsdf, s, [&](uint32_t number, const GsdfRecord& record, double mass) {
             const V3d kept(gsdf.weight(number, material, radius));
-            albedo.weight += mass * impacts[s].mass * kept;
+            albedo.weight -= mass * impacts[s].mass * (V3d(1) - kept);
             albedo.weighted_cosine += mass * impacts[s].mass * record.direction.unpack().z * kept;
         });
     }

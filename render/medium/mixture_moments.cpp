@@ -20,7 +20,7 @@ MixtureMoments mixture_moments(std::span<const GrainShare> shares, double fracti
     MixtureMoments mixture;
     double r2 = 0, r3 = 0;                             // sums over grains
     double scattered = 0, passed = 0, chord = 0, chord2 = 0; // cross-sections, and weighted by them
-    mixture.albedo = V3d(0);
+    V3d lost(0);
     for (const GrainShare& share : shares) {
         if (!(share.number >= 0 && share.radius > 0 && std::isfinite(share.number * share.radius)))
             throw InputError(place, fmt::format("{:g} grains of radius {:g}", share.number, share.radius), "a number of at least 0 and a positive radius");
@@ -38,13 +38,13 @@ MixtureMoments mixture_moments(std::span<const GrainShare> shares, double fracti
         mixture.along_in += met * r * moments.along_in;
         mixture.along_out += met * r * moments.along_out;
         mixture.delta2 += met * r * r * moments.delta2;
-        mixture.albedo += met * albedo.weight;
+        lost += met * (V3d(1) - albedo.weight);
         mixture.weighted_cosine += met * albedo.weighted_cosine;
         for (uint32_t i = 0; i < CosineTable::bins; ++i) mixture.phase.density[i] += met * moments.phase.density[i];
     }
     if (!(scattered > 0)) throw InputError(place, "no grains that scatter", "at least one");
     for (double* sum : {&mixture.g, &mixture.along_in, &mixture.along_out, &mixture.delta2}) *sum /= scattered;
-    mixture.albedo /= scattered;
+    mixture.albedo = V3d(1) - lost / scattered;
     mixture.weighted_cosine /= scattered;
     for (double& density : mixture.phase.density) density /= scattered;
     if (passed > 0) {

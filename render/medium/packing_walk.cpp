@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include <chrono>
+#include <mutex>
 
 namespace scree {
 
@@ -128,11 +129,13 @@ struct Walked {
 };
 
 Walked run(const Walker& walker, uint64_t seed, uint64_t scatterings, double line_length, uint32_t length, uint32_t memory,
-           const std::array<uint32_t, 3>& steps, const Progress& progress)
+           const Progress& progress)
 {
-    Walked walked{std::vector<WalkBatch>(batch_count, WalkBatch(memory, steps)), std::vector<Tally>(batch_count)};
+    Walked walked{std::vector<WalkBatch>(batch_count, WalkBatch(memory)), std::vector<Tally>(batch_count)};
     const uint64_t enough = scatterings / batch_count + 1;
     const auto most_lines = static_cast<uint32_t>(std::min<uint64_t>(1000 + 100 * (enough / length + 1), 1u << 31));
+    std::mutex told;
+    double done = 0;
     tbb::parallel_for(uint32_t{0}, batch_count, [&](uint32_t b) {
         flush_subnormals();
         WalkTrail trail;
@@ -144,6 +147,8 @@ Walked run(const Walker& walker, uint64_t seed, uint64_t scatterings, double lin
                 if (walker.walk(entry, line.direction, length, sampler, trail, tally)) walked.batches[b].add(trail);
             }
         }
+        const std::lock_guard lock(told);
+        progress.update("walks in the packing", ++done / batch_count);
     });
     if (progress.cancelled()) throw Cancelled();
     return walked;
@@ -178,19 +183,13 @@ PackingWalk walk_packing(const World& world, const Tracer& tracer, const Packing
     const Walker walker(world, tracer, options);
     const double line_length = mean_entry_distance(walker, options);
 
-    const Walked pilot = run(walker, options.seed, 8192, line_length, 16, 8, {}, progress);
+    const Walked pilot = run(walker, options.seed, 8192, line_length, 16, 8, progress);
     const WalkStatistics first(pilot.batches);
     if (first.scatterings() == 0) throw InputError("walk in a packing", "no grain that scatters", "at least one");
     PackingWalk result;
     result.memory = options.memory > 0 ? options.memory : walk_memory(first.cosine().value);
-    result.length = options.length > 0 ? options.length : 4 * result.memory;
-    std::array<uint32_t, 3> steps{};
-    for (int c = 0; c < 3; ++c) {
-        const bool again = (c > 0 && first.albedo()[c] == first.albedo()[0]) || (c == 2 && first.albedo()[2] == first.albedo()[1]);
-        if (!again) steps[static_cast<size_t>(c)] = decay_steps(first.albedo()[c], result.memory);
-    }
-
-    const Walked walked = run(walker, options.seed, options.scatterings, line_length, result.length, result.memory, steps, progress);
+    result.length = options.length > 0 ? options.length : 8 * result.memory;
+    const Walked walked = run(walker, options.seed, options.scatterings, line_length, result.length, result.memory, progress);
     const WalkStatistics statistics(walked.batches);
     result.scatterings = statistics.scatterings();
     result.flight = statistics.flight();
@@ -199,8 +198,10 @@ PackingWalk walk_packing(const World& world, const Tracer& tracer, const Packing
     result.transport_length = statistics.transport_length();
     result.half_diffusivity = statistics.half_diffusivity();
     result.half_transport_length = statistics.half_transport_length();
+    const V3d albedo = statistics.albedo();
     for (int c = 0; c < 3; ++c) {
-        const int same = c > 0 && first.albedo()[c] == first.albedo()[0] ? 0 : c == 2 && first.albedo()[2] == first.albedo()[1] ? 1 : c;
+        int same = 0; // channels of the same weights are the same
+        while (albedo[same] != albedo[c]) ++same;
         result.decay[static_cast<size_t>(c)] = same < c ? result.decay[static_cast<size_t>(same)] : statistics.decay(c);
     }
     std::vector<double> chords, lengths;

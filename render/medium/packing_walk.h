@@ -11,8 +11,8 @@ namespace scree {
 struct PackingWalkOptions {
     uint64_t seed = 0;
     uint64_t scatterings = 600000; ///< wanted in all, about
-    uint32_t memory = 0;           ///< scatterings after which a direction is forgotten; 0: as long as a short walk beforehand says
-    uint32_t length = 0;           ///< scatterings of a walk; 0: 4 `memory`
+    uint32_t memory = 0;           ///< as of WalkBatch; 0: as long as a short walk beforehand says
+    uint32_t length = 0;           ///< scatterings of a walk; 0: 8 `memory`
     V3d centre{0};                 ///< walks start within start_radius of it
     double start_radius = 0;
     double safe_radius = 0;        ///< and end early where they leave this

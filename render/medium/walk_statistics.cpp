@@ -2,18 +2,6 @@
 
 namespace scree {
 
-namespace {
-
-/// sinh(x) / x.
-double sinhc(double x)
-{
-    if (x < 1e-2) return 1 + x * x / 6 * (1 + x * x / 20);
-    const double e = std::exp(x);
-    return 0.5 * (e - 1 / e) / x;
-}
-
-} // namespace
-
 Measured measured_ratio(std::span<const double> above, std::span<const double> below)
 {
     const double n = static_cast<double>(above.size());
@@ -37,41 +25,38 @@ void WalkTrail::clear()
     flight.clear();
 }
 
+void WalkBatch::add_window(Windows& windows, const WalkTrail& trail, size_t i, size_t memory)
+{
+    const auto& p = trail.position;
+    const V3d& w = trail.direction[i];
+    const V3d step = p[i + 1] - p[i];
+    ++windows.count;
+    windows.transport += w.dot(p[i + memory] - p[i]);
+    windows.direction += w.dot(trail.direction[i + memory]);
+    windows.own += 0.5 * step.length2();
+    windows.later += step.dot(p[i + 1 + memory] - p[i + 1]);
+    windows.last += step.dot(trail.direction[i + 1 + memory]);
+}
+
 void WalkBatch::add(const WalkTrail& trail)
 {
-    const size_t n = trail.scatterings(), memory = memory_, half = memory_ / 2;
-    const auto& p = trail.position;
+    const size_t n = trail.scatterings(), half = std::max(1u, memory_ / 2);
     scatterings_ += static_cast<double>(n);
     for (size_t i = 0; i < n; ++i) {
         flight_ += trail.flight[i];
         cosine_ += trail.direction[i].dot(trail.direction[i + 1]);
         kept_ += trail.kept[i];
     }
-    for (size_t i = 0; i + 1 + memory <= n; ++i) {
-        const V3d step = p[i + 1] - p[i];
-        const double own = 0.5 * step.length2();
-        diffusivity_ += own + step.dot(p[i + 1 + memory] - p[i + 1]);
-        half_diffusivity_ += own + step.dot(p[i + 1 + half] - p[i + 1]);
-        transport_ += trail.direction[i].dot(p[i + 1 + memory] - p[i]);
-        half_transport_ += trail.direction[i].dot(p[i + 1 + half] - p[i]);
-        ++windows_;
+    for (size_t i = 0; i + 1 + memory_ <= n; ++i) {
+        add_window(windows_, trail, i, memory_);
+        add_window(half_, trail, i, half);
     }
-    for (size_t channel = 0; channel < 3; ++channel) {
-        const size_t steps = steps_[channel];
-        if (steps == 0) continue;
-        const auto keeps = [&](size_t begin, size_t end) {
-            double weight = 1;
-            for (size_t i = begin; i < end; ++i) weight *= trail.kept[i][static_cast<int>(channel)];
-            return weight;
-        };
-        // Ways that overlap by more than half tell little more.
-        for (size_t i = 0; i + 2 * steps <= n; i += steps) {
-            const size_t quarter = i + steps / 2, middle = i + steps, end = i + 2 * steps;
-            const double first = keeps(i, quarter), second = first * keeps(quarter, middle), all = second * keeps(middle, end);
-            const auto length = [&](size_t to) { return static_cast<float>((p[to] - p[i]).length()); };
-            ways_[channel].push_back({{length(end), length(middle), length(quarter)},
-                                      {static_cast<float>(all), static_cast<float>(second), static_cast<float>(first)}});
-        }
+    walks_.push_back(nodes_.size());
+    V3d kept(0);
+    for (size_t i = 0; i <= n; ++i) {
+        nodes_.push_back({V3f(trail.position[i] - trail.position[0]), V3f(trail.direction[i]), {static_cast<float>(kept.x), static_cast<float>(kept.y), static_cast<float>(kept.z)}});
+        if (i == n) break;
+        for (int c = 0; c < 3; ++c) kept[c] += std::log(std::max(trail.kept[i][c], 1e-30));
     }
 }
 
@@ -93,12 +78,44 @@ V3d WalkStatistics::albedo() const
     return count > 0 ? kept / count : V3d(1);
 }
 
-Measured WalkStatistics::over(double WalkBatch::*sum, double WalkBatch::*count) const
+Measured WalkStatistics::over_scatterings(double WalkBatch::*sum) const
 {
     std::vector<double> above, below;
     for (const WalkBatch& batch : batches_) {
         above.push_back(batch.*sum);
-        below.push_back(batch.*count);
+        below.push_back(batch.scatterings_);
+    }
+    return measured_ratio(above, below);
+}
+
+Measured WalkStatistics::transport_length(Windows WalkBatch::*windows) const
+{
+    std::vector<double> above, below;
+    for (const WalkBatch& batch : batches_) {
+        const Windows& sums = batch.*windows;
+        above.push_back(sums.transport);
+        below.push_back(sums.count - sums.direction);
+    }
+    return measured_ratio(above, below);
+}
+
+Measured WalkStatistics::diffusivity(Windows WalkBatch::*windows) const
+{
+    Windows all;
+    for (const WalkBatch& batch : batches_) {
+        const Windows& sums = batch.*windows;
+        all.count += sums.count;
+        all.direction += sums.direction;
+        all.last += sums.last;
+    }
+    const double l = transport_length(windows).value;
+    std::vector<double> above, below;
+    for (const WalkBatch& batch : batches_) {
+        const Windows& sums = batch.*windows;
+        // The last term is zero over all batches, and brings in how l* itself scatters.
+        const double of_l = (sums.transport - l * (sums.count - sums.direction)) * all.last / (all.count - all.direction);
+        above.push_back(sums.own + sums.later + l * sums.last + of_l);
+        below.push_back(sums.count);
     }
     return measured_ratio(above, below);
 }
@@ -107,76 +124,48 @@ PackingDecay WalkStatistics::decay(int channel) const
 {
     PackingDecay decay;
     decay.albedo = albedo()[channel];
-    decay.steps = batches_.empty() ? 0 : batches_.front().steps_[static_cast<size_t>(channel)];
-    if (decay.steps == 0) return decay;
-    decay.kappa = decay_between(channel, 0, 1);
-    decay.check = decay_between(channel, 1, 2);
+    if (decay.albedo >= 1) return decay;
+    const uint32_t longest = batches_.empty() ? 0 : 2 * batches_.front().memory_;
+    // Few scatterings will do, but what they lose must be seen; of many, the few ways that lead far decide.
+    const double per_step = -std::log(std::max(decay.albedo, 1e-6)), most = std::min<double>(longest, std::max(4.0, 2.5 / per_step));
+    decay.steps = static_cast<uint32_t>(std::clamp(std::round(0.25 / per_step), 2.0, 0.5 * most));
+    decay.check = decay_of_steps(channel, decay.steps);
+    decay.steps *= 2;
+    decay.kappa = decay_of_steps(channel, decay.steps);
+    while (2 * decay.steps <= most && std::abs(decay.kappa.value - decay.check.value) > 2 * decay.kappa.error) {
+        const Measured next = decay_of_steps(channel, 2 * decay.steps);
+        if (!(next.error < 0.015 * next.value)) break;
+        decay.check = decay.kappa;
+        decay.kappa = next;
+        decay.steps *= 2;
+    }
     return decay;
 }
 
-Measured WalkStatistics::decay_between(int channel, size_t far, size_t near) const
+Measured WalkStatistics::decay_of_steps(int channel, uint32_t steps) const
 {
-    double largest = 0;
-    for (const WalkBatch& batch : batches_) {
-        for (const auto& way : batch.ways_[static_cast<size_t>(channel)]) largest = std::max<double>(largest, way.length[far]);
-    }
-    if (largest == 0) return {};
-    // Per batch: the excess of the far mean over the near one, and its slope.
-    std::vector<double> excess(batches_.size());
-    const auto evaluate = [&](double kappa) {
-        double sum = 0;
-        for (size_t b = 0; b < batches_.size(); ++b) {
-            excess[b] = 0;
-            for (const auto& way : batches_[b].ways_[static_cast<size_t>(channel)]) {
-                excess[b] += way.weight[far] * sinhc(kappa * way.length[far]) - way.weight[near] * sinhc(kappa * way.length[near]);
+    const auto c = static_cast<size_t>(channel);
+    std::vector<std::vector<DecayWay>> ways(batches_.size());
+    for (size_t b = 0; b < batches_.size(); ++b) {
+        const auto& nodes = batches_[b].nodes_;
+        const auto& walks = batches_[b].walks_;
+        for (size_t walk = 0; walk < walks.size(); ++walk) {
+            const size_t end = walk + 1 < walks.size() ? walks[walk + 1] : nodes.size();
+            for (size_t i = walks[walk]; i + steps < end; i += std::max(1u, steps / 2)) {
+                const auto &from = nodes[i], &to = nodes[i + steps];
+                const V3f way = to.position - from.position, along = way.normalized();
+                ways[b].push_back({way.length(), along.dot(from.direction), along.dot(to.direction), from.direction.dot(to.direction),
+                                   std::exp(to.kept[c] - from.kept[c])});
             }
-            sum += excess[b];
-        }
-        return sum;
-    };
-    // The excess is convex, and negative at 0. A bracket, then regula falsi (Illinois) in kappa^2, in which it is nearly linear.
-    const double at_zero = evaluate(0);
-    if (!(at_zero < 0)) return {};
-    double low = 0, high = std::pow(1 / largest, 2), at_low = at_zero, at_high = evaluate(std::sqrt(high));
-    while (at_high < 0 && std::sqrt(high) * largest < 300) {
-        low = high;
-        at_low = at_high;
-        high *= 2;
-        at_high = evaluate(std::sqrt(high));
-    }
-    double root = high;
-    for (int i = 0; i < 30 && high - low > 1e-9 * high; ++i) {
-        root = low - at_low * (high - low) / (at_high - at_low);
-        const double at = evaluate(std::sqrt(root));
-        if (std::abs(at) < -1e-9 * at_zero) break;
-        if (at < 0) {
-            low = root;
-            at_low = at;
-            at_high *= 0.5;
-        } else {
-            high = root;
-            at_high = at;
-            at_low *= 0.5;
         }
     }
-    const double kappa = std::sqrt(root), above = evaluate(kappa * 1.001), slope = (above - evaluate(kappa)) / (0.001 * kappa);
-    double residual2 = 0;
-    for (const double x : excess) residual2 += x * x;
-    const double n = static_cast<double>(batches_.size());
-    return {kappa, std::sqrt(residual2 * n / (n - 1)) / slope};
+    return decay_of_ways(ways);
 }
 
 uint32_t walk_memory(double g)
 {
-    const double forgets = std::log(1e-3) / std::log(std::clamp(std::abs(g), 1e-3, 0.999));
-    return static_cast<uint32_t>(std::clamp(std::ceil(forgets), 16.0, 256.0));
-}
-
-uint32_t decay_steps(double albedo, uint32_t memory)
-{
-    if (albedo >= 1) return 0;
-    const double steps = albedo > 0 ? 1 / -std::log(albedo) : 2;
-    return static_cast<uint32_t>(std::clamp(std::round(steps), 4.0, static_cast<double>(memory)));
+    const double forgets = std::log(0.01) / std::log(std::clamp(std::abs(g), 1e-3, 0.999));
+    return static_cast<uint32_t>(std::clamp(std::ceil(forgets), 12.0, 256.0));
 }
 
 } // namespace scree

@@ -1,5 +1,6 @@
 // The numbers of the medium that stands for a packing, against simulated walks of independent flights.
 
+#include "ingest/support/error.h"
 #include "render/gsdf/encounter.h"
 #include "render/gsdf/gsdf_builder.h"
 #include "render/medium/continuous_equivalent.h"
@@ -8,8 +9,6 @@
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/statistics.h"
-
-#include "ingest/support/error.h"
 
 #include <gtest/gtest.h>
 
@@ -173,6 +172,43 @@ TEST(ContinuousEquivalent, RefusesWhatIsNoPacking)
     EXPECT_THROW(mixture_moments({}, 0.5), InputError);
     const GrainShare flat{white.gsdf.get(), nullptr, white.material, 0, 1};
     EXPECT_THROW(mixture_moments({&flat, 1}, 0.5), InputError);
+}
+
+TEST(ContinuousEquivalent, FormsKeepWhatTheyPromise)
+{
+    const Grains& tea = all_grains_once()[2];
+    const GrainShare share{tea.gsdf.get(), nullptr, tea.material, 1, 1};
+    const MixtureMoments mixture = mixture_moments({&share, 1}, 0.5);
+    const auto plain = continuous_equivalent(mixture, EquivalentForm::plain), formula = continuous_equivalent(mixture, EquivalentForm::formula);
+    EXPECT_DOUBLE_EQ(plain.sigma_t, 1 / mixture.flight);
+    EXPECT_DOUBLE_EQ(plain.g, mixture.g);
+    EXPECT_NEAR(formula.diffusivity, mixture.diffusivity(), 1e-12 * mixture.diffusivity());
+    EXPECT_NEAR(formula.transport_length, mixture.transport_length(), 1e-12 * mixture.transport_length());
+    EXPECT_EQ(formula.albedo, mixture.albedo);
+    EXPECT_EQ(formula.albedo.z, 1); // blue is not absorbed: nothing is lost, not nearly nothing
+    EXPECT_EQ(formula.decay.z, 0);
+    EXPECT_THROW(continuous_equivalent(mixture, EquivalentForm::walk_decay), std::invalid_argument);
+}
+
+TEST(ContinuousEquivalent, SaysWhatIsOutOfReach)
+{
+    const Grains& tea = all_grains_once()[2];
+    const GrainShare share{tea.gsdf.get(), nullptr, tea.material, 1, 1};
+    const MixtureMoments mixture = mixture_moments({&share, 1}, 0.5);
+    PackingWalk walk;
+    walk.diffusivity = {1, 0.01};
+    walk.transport_length = {1, 0.01};
+    EXPECT_EQ(continuous_equivalent(mixture, EquivalentForm::walk_decay, &walk).doubt, "");
+    walk.decay[1].kappa = {2, 0.1}; // the mean free path is 1
+    const auto dark = continuous_equivalent(mixture, EquivalentForm::walk_decay, &walk);
+    EXPECT_NE(dark.doubt, "");
+    EXPECT_GT(dark.albedo.y, 0);
+    EXPECT_LT(dark.albedo.y, 0.01);
+    walk.diffusivity.value = 3; // g would be -2
+    const auto backwards = continuous_equivalent(mixture, EquivalentForm::walk, &walk);
+    EXPECT_NE(backwards.doubt, "");
+    EXPECT_GT(backwards.g, -1);
+    EXPECT_NEAR(backwards.transport_length, 1, 1e-12);
 }
 
 TEST(DecayConstant, IsTheClosedFormForIsotropicScattering)
