@@ -12,17 +12,17 @@ namespace scree {
 
 namespace {
 
-constexpr double slack = 1e-9; ///< in voxels: what rounding may do to coordinates up to 1024
+constexpr double slack = 1e-9; ///< in cells: what rounding may do to coordinates up to 2048
 
-/// Marks voxels through which triangles pass, and a few that are next to such.
+/// Marks cells through which triangles pass, and a few that are next to such.
 ///
-/// A part of a triangle beyond the box marks the voxels that are nearest to it: the projection to a convex set brings no two points
+/// A part of a triangle beyond the box marks the cells that are nearest to it: the projection to a convex set brings no two points
 /// farther apart, so the distance from a place in the box to the projection is not above that to the triangle.
 class Marker {
 public:
     Marker(const std::array<int, 3>& size, std::vector<std::atomic<uint8_t>>& marks) : size_(size), marks_(marks) {}
 
-    /// Corners in voxels from the box's lower corner.
+    /// Corners in cells from the box's lower corner.
     void mark(const V3d& a, const V3d& b, const V3d& c) const
     {
         int first[3], last[3];
@@ -57,7 +57,7 @@ private:
         mark(middle, b, c);
     }
 
-    /// Whether a plane meets the voxel around `centre` (from a point of the plane); a normal of no length: yes.
+    /// Whether a plane meets the cell around `centre` (from a point of the plane); a normal of no length: yes.
     static bool meets_plane(const V3d& centre, const V3d& normal)
     {
         const double width = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
@@ -74,21 +74,46 @@ private:
     std::vector<std::atomic<uint8_t>>& marks_;
 };
 
-/// One axis of the distance transform: squared[i] becomes the least squared[j] + (distance from the centre of cell i to cell j)^2.
-void transform_line(float* squared, size_t count, size_t stride, std::vector<float>& line)
+/// Squares of distances along some axes, from the centre of a voxel there and from a cell (half a voxel) along the others.
+struct Squares {
+    std::array<size_t, 3> size{};
+    std::vector<float> values;
+
+    size_t offset(const std::array<size_t, 3>& at) const { return (at[0] * size[1] + at[1]) * size[2] + at[2]; }
+    size_t stride(size_t axis) const { return axis == 0 ? size[1] * size[2] : axis == 1 ? size[2] : 1; }
+};
+
+/// to[i] becomes the least from[j] + (distance from the centre of voxel i, which is between cells 2 i and 2 i + 1, to cell j)^2.
+void transform_line(const float* from, size_t stride, size_t voxels, float* to, size_t to_stride)
 {
-    line.resize(count);
-    for (size_t i = 0; i < count; ++i) line[i] = squared[i * stride];
-    for (size_t i = 0; i < count; ++i) {
-        float least = line[i];
-        for (size_t step = 1; step < count; ++step) {
-            const float gap = static_cast<float>(step) - 0.5f, square = gap * gap;
-            if (square >= least || (step > i && i + step >= count)) break;
-            if (step <= i) least = std::min(least, line[i - step] + square);
-            if (i + step < count) least = std::min(least, line[i + step] + square);
+    for (size_t i = 0; i < voxels; ++i) {
+        float least = std::numeric_limits<float>::infinity();
+        for (size_t gap = 0; gap < 2 * voxels; ++gap) {
+            const auto square = static_cast<float>(gap * gap);
+            const bool below = gap <= 2 * i, above = 2 * i + 1 + gap < 2 * voxels;
+            if (square >= least || (!below && !above)) break;
+            if (below) least = std::min(least, from[(2 * i - gap) * stride] + square);
+            if (above) least = std::min(least, from[(2 * i + 1 + gap) * stride] + square);
         }
-        squared[i * stride] = least;
+        to[i * to_stride] = least;
     }
+}
+
+Squares transform_axis(const Squares& from, size_t axis, const Progress& progress)
+{
+    Squares to;
+    to.size = from.size;
+    to.size[axis] /= 2;
+    to.values.resize(to.size[0] * to.size[1] * to.size[2]);
+    const size_t a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
+    tbb::parallel_for(size_t{0}, to.size[a], [&](size_t i) {
+        std::array<size_t, 3> at{};
+        at[a] = i;
+        for (at[b] = 0; at[b] < to.size[b] && !progress.cancelled(); ++at[b])
+            transform_line(&from.values[from.offset(at)], from.stride(axis), to.size[axis], &to.values[to.offset(at)], to.stride(axis));
+    });
+    if (progress.cancelled()) throw Cancelled();
+    return to;
 }
 
 } // namespace
@@ -103,10 +128,12 @@ ClearanceField::ClearanceField(std::span<const TriangleView> meshes, const Imath
     voxel_ = longest / voxels;
     per_length_ = 1 / voxel_;
     for (int k = 0; k < 3; ++k) size_[static_cast<size_t>(k)] = std::clamp(static_cast<int>(std::ceil(extent[k] * per_length_)), 1, voxels);
-    const auto dim = [this](size_t k) { return static_cast<size_t>(size_[k]); };
-
-    std::vector<std::atomic<uint8_t>> marks(dim(0) * dim(1) * dim(2));
-    const Marker marker(size_, marks);
+    // Marked in cells of half the edge: what is lost by not knowing where in a cell a triangle is halves.
+    const std::array<int, 3> cells{2 * size_[0], 2 * size_[1], 2 * size_[2]};
+    Squares squares;
+    for (size_t k = 0; k < 3; ++k) squares.size[k] = static_cast<size_t>(cells[k]);
+    std::vector<std::atomic<uint8_t>> marks(squares.size[0] * squares.size[1] * squares.size[2]);
+    const Marker marker(cells, marks);
     for (const TriangleView& mesh : meshes) {
         tbb::parallel_for(size_t{0}, mesh.triangles.size(), [&](size_t t) {
             if (progress.cancelled()) return;
@@ -114,7 +141,7 @@ ClearanceField::ClearanceField(std::span<const TriangleView> meshes, const Imath
             for (size_t k = 0; k < 3; ++k) {
                 const uint32_t vertex = mesh.triangles[t][k];
                 if (vertex >= mesh.positions.size()) throw InputError("clearance field", fmt::format("vertex {}", vertex), fmt::format("below {}", mesh.positions.size()));
-                corner[k] = (V3d(mesh.positions[vertex]) - origin_) * per_length_;
+                corner[k] = (V3d(mesh.positions[vertex]) - origin_) * (2 * per_length_);
                 if (!std::isfinite(corner[k].x + corner[k].y + corner[k].z)) throw InputError("clearance field", fmt::format("vertex {} that is not finite", vertex), "finite numbers");
             }
             marker.mark(corner[0], corner[1], corner[2]);
@@ -122,22 +149,13 @@ ClearanceField::ClearanceField(std::span<const TriangleView> meshes, const Imath
         if (progress.cancelled()) throw Cancelled();
     }
 
-    // Sums of squares of halves are exact in float: up to 3 * 1024^2 with two bits below the point.
-    distance_.resize(marks.size());
-    for (size_t i = 0; i < marks.size(); ++i) distance_[i] = marks[i] ? 0 : std::numeric_limits<float>::infinity();
-    const auto lines = [&](size_t along, size_t a, size_t b) {
-        const size_t stride[3] = {dim(1) * dim(2), dim(2), 1};
-        tbb::parallel_for(size_t{0}, dim(a), [&](size_t i) {
-            std::vector<float> line;
-            for (size_t j = 0; j < dim(b) && !progress.cancelled(); ++j) transform_line(&distance_[i * stride[a] + j * stride[b]], dim(along), stride[along], line);
-        });
-    };
-    lines(2, 0, 1);
-    lines(1, 0, 2);
-    lines(0, 1, 2);
-    if (progress.cancelled()) throw Cancelled();
+    // Squares of whole numbers: their sums are exact in float, up to 3 * 2048^2.
+    squares.values.resize(marks.size());
+    for (size_t i = 0; i < marks.size(); ++i) squares.values[i] = marks[i] ? 0 : std::numeric_limits<float>::infinity();
+    for (const size_t axis : {size_t{2}, size_t{1}, size_t{0}}) squares = transform_axis(squares, axis, progress);
+    distance_ = std::move(squares.values);
     // Places are found in their voxels, and triangles in theirs, up to rounding.
-    for (float& d : distance_) d = std::max(0.0f, std::sqrt(d) * (1 - 0x1p-22f) - 1e-6f);
+    for (float& d : distance_) d = std::max(0.0f, 0.5f * std::sqrt(d) * (1 - 0x1p-22f) - 1e-6f);
     progress.update("clearance", 1);
 }
 

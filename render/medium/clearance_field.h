@@ -20,8 +20,8 @@ struct TriangleView {
 
 /// How far it certainly is from a place to the nearest of many triangles: a walk that is shorter needs no test against them.
 ///
-/// A dense grid of voxels holds, for each voxel's centre, the distance to the nearest voxel through which a triangle may pass (an exact distance transform, by axes:
-/// Saito and Toriwaki 1994). The bound is never above the distance, and below it by the size of a voxel or two.
+/// A dense grid of voxels holds, for each voxel's centre, the distance to the nearest cell of half the edge through which a triangle may
+/// pass (an exact distance transform, by axes: Saito and Toriwaki 1994). The bound is never above the distance, and mostly less than two voxels below it.
 class ClearanceField {
 public:
     /// Knows nothing: the clearance is 0 everywhere.

@@ -22,8 +22,8 @@ struct RegionSurface {
 
 /// All points inside a closed mesh that are farther than `depth` from it; nothing where there are none.
 ///
-/// Planes are met exactly (but for float), curved faces and edges to a part of a voxel, and there are no points nearer to the mesh than
-/// depth - 1 voxel. A voxel is at most depth / 4, or as large as 2e7 voxels in the band between the two surfaces allow. Cavities (shells that face inwards) are outside.
+/// Planes are met exactly (but for float); curved faces, and what is next to an edge, to a part of a voxel: there are no points nearer to the mesh than
+/// depth - 1 voxel. A voxel is at most depth / 4, or as large as 8e6 voxels in the band between the two surfaces allow. Cavities (shells that face inwards) are outside.
 /// depth 0: the mesh itself. Throws InputError (a mesh that is not closed, a depth that is no length), Cancelled.
 std::optional<RegionSurface> inset_of_mesh(std::span<const V3f> positions, std::span<const std::array<uint32_t, 3>> triangles, double depth,
                                            const Progress& progress);

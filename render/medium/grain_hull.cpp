@@ -143,6 +143,7 @@ openvdb::FloatGrid::Ptr gather(std::vector<std::vector<FoundLeaf>>& leaves)
         for (const FoundLeaf& found : of_block)
             if (found.inside) inside.setValueOn(cell(found));
     auto grid = openvdb::FloatGrid::create(static_cast<float>(beyond));
+    grid->setGridClass(openvdb::GRID_LEVEL_SET); // which side of its surface is out depends on this
     openvdb::tree::ValueAccessor<const openvdb::MaskTree> is_inside(inside);
     for (auto& of_block : leaves) {
         for (FoundLeaf& found : of_block) {

@@ -11,7 +11,7 @@ namespace scree {
 
 namespace {
 
-constexpr double most_voxels = 2e7;
+constexpr double most_voxels = 8e6; ///< half a gigabyte while it works, a million triangles
 constexpr double margin = 3; ///< voxels of the band beyond what is asked for, so that the level lies well inside of it
 
 /// A surface as OpenVDB wants to see it, without a copy.
@@ -60,7 +60,7 @@ RegionSurface level_surface(const openvdb::FloatGrid& grid, double level, const 
     surface.positions.reserve(points.size());
     for (const auto& p : points) surface.positions.emplace_back(lattice.place(V3d(p.x(), p.y(), p.z())));
     surface.triangles.reserve(2 * quads.size());
-    // OpenVDB's polygons go clockwise seen from outside.
+    // OpenVDB's polygons go clockwise seen from outside (of level sets; the other way of other grids).
     for (const auto& q : quads) {
         surface.triangles.push_back({q[2], q[1], q[0]});
         surface.triangles.push_back({q[3], q[2], q[0]});
@@ -83,7 +83,9 @@ std::optional<RegionSurface> inset_on_lattice(const RegionSurface& surface, doub
     const double level = depth / lattice.voxel;
     Interrupter interrupter(progress, stage);
     // Renormalising would move what is exact; it mends self-intersecting meshes only.
-    const int flags = openvdb::tools::DISABLE_RENORMALIZATION | openvdb::tools::DISABLE_NARROW_BAND_TRIMMING;
+    // What it takes for self-intersections may be the walls of cavities.
+    const int flags = openvdb::tools::DISABLE_RENORMALIZATION | openvdb::tools::DISABLE_NARROW_BAND_TRIMMING |
+                      openvdb::tools::DISABLE_INTERSECTING_VOXEL_REMOVAL;
     const auto grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(interrupter, SurfaceOnLattice(surface, lattice), openvdb::math::Transform(),
                                                                       static_cast<float>(margin), static_cast<float>(level + margin), flags);
     if (progress.cancelled()) throw Cancelled();

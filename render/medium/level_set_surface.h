@@ -17,7 +17,7 @@ struct VoxelLattice {
     V3d place(const V3d& index) const { return origin + index * voxel; }
 };
 
-/// The surface where a field passes `level`, around what is below it. For sources that use OpenVDB.
+/// The surface where a field passes `level`, around what is below it; the grid is of the class GRID_LEVEL_SET. For sources that use OpenVDB.
 RegionSurface level_surface(const openvdb::FloatGrid& grid, double level, const VoxelLattice& lattice);
 
 /// All points deeper than `depth` below a closed surface (may have shells that face inwards), found in voxels of one size; Throws Cancelled.
