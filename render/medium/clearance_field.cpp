@@ -26,15 +26,17 @@ public:
     void mark(const V3d& a, const V3d& b, const V3d& c) const
     {
         int first[3], last[3];
-        bool small = true, beyond = false;
+        bool beyond = false;
+        double away = 0; ///< from the box, along the axis where that is most
         for (int k = 0; k < 3; ++k) {
             const double lo = std::min({a[k], b[k], c[k]}) - slack, hi = std::max({a[k], b[k], c[k]}) + slack, end = size_[static_cast<size_t>(k)] - 1;
             first[k] = static_cast<int>(std::clamp(std::floor(lo), 0.0, end));
             last[k] = static_cast<int>(std::clamp(std::floor(hi), 0.0, end));
-            small = small && last[k] - first[k] <= 1;
             beyond = beyond || lo < 0 || hi > end + 1;
+            away = std::max({away, -hi, lo - end - 1});
         }
-        if (small) {
+        // Far beyond the box pieces may be large, or a plain around it would be cut to as many as it has cells.
+        if (std::max({last[0] - first[0], last[1] - first[1], last[2] - first[2]}) <= 1 + away / 4) {
             const V3d normal = (b - a).cross(c - a);
             for (int x = first[0]; x <= last[0]; ++x)
                 for (int y = first[1]; y <= last[1]; ++y)
@@ -74,43 +76,57 @@ private:
     std::vector<std::atomic<uint8_t>>& marks_;
 };
 
-/// Squares of distances along some axes, from the centre of a voxel there and from a cell (half a voxel) along the others.
+/// Squares of distances along some axes, from the centres of voxels there and from cells (half a voxel) along the others.
 struct Squares {
     std::array<size_t, 3> size{};
     std::vector<float> values;
 
-    size_t offset(const std::array<size_t, 3>& at) const { return (at[0] * size[1] + at[1]) * size[2] + at[2]; }
-    size_t stride(size_t axis) const { return axis == 0 ? size[1] * size[2] : axis == 1 ? size[2] : 1; }
+    explicit Squares(const std::array<size_t, 3>& of) : size(of), values(of[0] * of[1] * of[2], std::numeric_limits<float>::infinity()) {}
+    float* row(size_t x, size_t y) { return &values[(x * size[1] + y) * size[2]]; }
+    const float* row(size_t x, size_t y) const { return &values[(x * size[1] + y) * size[2]]; }
 };
 
-/// to[i] becomes the least from[j] + (distance from the centre of voxel i, which is between cells 2 i and 2 i + 1, to cell j)^2.
-void transform_line(const float* from, size_t stride, size_t voxels, float* to, size_t to_stride)
+/// From the centre of voxel i, between cells 2 i and 2 i + 1, to the near face of cell j; in cells.
+size_t gap(size_t i, size_t j) { return j > 2 * i ? j - 2 * i - 1 : 2 * i - j; }
+
+/// Along z, from the marked cells.
+Squares from_marks(const std::vector<std::atomic<uint8_t>>& marks, const std::array<size_t, 3>& cells)
 {
-    for (size_t i = 0; i < voxels; ++i) {
-        float least = std::numeric_limits<float>::infinity();
-        for (size_t gap = 0; gap < 2 * voxels; ++gap) {
-            const auto square = static_cast<float>(gap * gap);
-            const bool below = gap <= 2 * i, above = 2 * i + 1 + gap < 2 * voxels;
-            if (square >= least || (!below && !above)) break;
-            if (below) least = std::min(least, from[(2 * i - gap) * stride] + square);
-            if (above) least = std::min(least, from[(2 * i + 1 + gap) * stride] + square);
+    Squares to({cells[0], cells[1], cells[2] / 2});
+    tbb::parallel_for(size_t{0}, cells[0] * cells[1], [&](size_t line) {
+        const std::atomic<uint8_t>* mark = &marks[line * cells[2]];
+        float* row = &to.values[line * to.size[2]];
+        const auto lower = [row](size_t i, size_t j) { row[i] = std::min(row[i], static_cast<float>(gap(i, j) * gap(i, j))); };
+        const size_t none = cells[2];
+        size_t nearest = none;
+        for (size_t j = 0; j < cells[2]; ++j) {
+            if (mark[j].load(std::memory_order_relaxed)) nearest = j;
+            if (nearest != none && j % 2 == 0) lower(j / 2, nearest);
         }
-        to[i * to_stride] = least;
-    }
+        nearest = none;
+        for (size_t j = cells[2]; j-- > 0;) {
+            if (mark[j].load(std::memory_order_relaxed)) nearest = j;
+            if (nearest != none && j % 2 == 1) lower(j / 2, nearest);
+        }
+    });
+    return to;
 }
 
-Squares transform_axis(const Squares& from, size_t axis, const Progress& progress)
+/// to[i] becomes the least from[j] + gap(i, j)^2 along x or y; all of a row along z at once.
+Squares along(size_t axis, const Squares& from, const Progress& progress)
 {
-    Squares to;
-    to.size = from.size;
-    to.size[axis] /= 2;
-    to.values.resize(to.size[0] * to.size[1] * to.size[2]);
-    const size_t a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
-    tbb::parallel_for(size_t{0}, to.size[a], [&](size_t i) {
-        std::array<size_t, 3> at{};
-        at[a] = i;
-        for (at[b] = 0; at[b] < to.size[b] && !progress.cancelled(); ++at[b])
-            transform_line(&from.values[from.offset(at)], from.stride(axis), to.size[axis], &to.values[to.offset(at)], to.stride(axis));
+    std::array<size_t, 3> size = from.size;
+    size[axis] /= 2;
+    Squares to(size);
+    tbb::parallel_for(size_t{0}, size[0] * size[1], [&](size_t line) {
+        if (progress.cancelled()) return;
+        const size_t x = line / size[1], y = line % size[1], i = axis == 0 ? x : y;
+        float* row = to.row(x, y);
+        for (size_t j = 0; j < from.size[axis]; ++j) {
+            const float* other = axis == 0 ? from.row(j, y) : from.row(x, j);
+            const auto square = static_cast<float>(gap(i, j) * gap(i, j));
+            for (size_t z = 0; z < size[2]; ++z) row[z] = std::min(row[z], other[z] + square);
+        }
     });
     if (progress.cancelled()) throw Cancelled();
     return to;
@@ -130,9 +146,8 @@ ClearanceField::ClearanceField(std::span<const TriangleView> meshes, const Imath
     for (int k = 0; k < 3; ++k) size_[static_cast<size_t>(k)] = std::clamp(static_cast<int>(std::ceil(extent[k] * per_length_)), 1, voxels);
     // Marked in cells of half the edge: what is lost by not knowing where in a cell a triangle is halves.
     const std::array<int, 3> cells{2 * size_[0], 2 * size_[1], 2 * size_[2]};
-    Squares squares;
-    for (size_t k = 0; k < 3; ++k) squares.size[k] = static_cast<size_t>(cells[k]);
-    std::vector<std::atomic<uint8_t>> marks(squares.size[0] * squares.size[1] * squares.size[2]);
+    const std::array<size_t, 3> count{static_cast<size_t>(cells[0]), static_cast<size_t>(cells[1]), static_cast<size_t>(cells[2])};
+    std::vector<std::atomic<uint8_t>> marks(count[0] * count[1] * count[2]);
     const Marker marker(cells, marks);
     for (const TriangleView& mesh : meshes) {
         tbb::parallel_for(size_t{0}, mesh.triangles.size(), [&](size_t t) {
@@ -150,10 +165,7 @@ ClearanceField::ClearanceField(std::span<const TriangleView> meshes, const Imath
     }
 
     // Squares of whole numbers: their sums are exact in float, up to 3 * 2048^2.
-    squares.values.resize(marks.size());
-    for (size_t i = 0; i < marks.size(); ++i) squares.values[i] = marks[i] ? 0 : std::numeric_limits<float>::infinity();
-    for (const size_t axis : {size_t{2}, size_t{1}, size_t{0}}) squares = transform_axis(squares, axis, progress);
-    distance_ = std::move(squares.values);
+    distance_ = along(0, along(1, from_marks(marks, count), progress), progress).values;
     // Places are found in their voxels, and triangles in theirs, up to rounding.
     for (float& d : distance_) d = std::max(0.0f, 0.5f * std::sqrt(d) * (1 - 0x1p-22f) - 1e-6f);
     progress.update("clearance", 1);

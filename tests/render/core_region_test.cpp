@@ -198,7 +198,7 @@ Spheres block_of_bed(double fraction, const V3d& half)
     const int cells = static_cast<int>(std::ceil(2 * std::max({half.x, half.y, half.z}) / edge)) + 1;
     Spheres spheres;
     for (const PackedSphere& s : repeat_packing(tile, edge, cells, tile.size() * static_cast<uint64_t>(cells * cells * cells))) {
-        const V3d p = s.center - V3d(0.5 * cells * edge) + V3d(0.5 * edge);
+        const V3d& p = s.center;
         if (std::abs(p.x) <= half.x && std::abs(p.y) <= half.y && std::abs(p.z) <= half.z)
             spheres.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), 1});
     }
@@ -245,10 +245,10 @@ TEST(CoreOfSpheres, LiesBelowTheFacesOfABlock)
         EXPECT_TRUE(is_balanced(*region));
         EXPECT_FALSE(region->coarsened);
         EXPECT_NEAR(region->voxel, 1, 1e-6);
-        // Centres end within a layer of the cut, and a face lies between the tops of its grains.
-        EXPECT_NEAR(mean_height(*region, 5), half.z + 1 - depth - 0.5, 0.5) << depth;
-        const V3d expected = (half + V3d(0.5 - depth)) * 2;
-        EXPECT_NEAR(std::cbrt(signed_volume(to_mesh(*region))), std::cbrt(expected.x * expected.y * expected.z), 0.8) << depth;
+        // Centres end at the cut; as much of the grains is beyond it as of those cut away would be below.
+        EXPECT_NEAR(mean_height(*region, 5), half.z - depth, 0.5) << depth;
+        const V3d expected = (half - V3d(depth)) * 2;
+        EXPECT_NEAR(std::cbrt(signed_volume(to_mesh(*region))), std::cbrt(expected.x * expected.y * expected.z), 0.5) << depth;
     }
 }
 
