@@ -101,10 +101,4 @@ SphereBins::SphereBins(uint32_t count, int edge, const Range& range)
     }
 }
 
-const SphereBins::Bin* SphereBins::find(const Voxel& block) const
-{
-    const auto found = std::lower_bound(bins_.begin(), bins_.end(), block, [](const Bin& bin, const Voxel& b) { return bin.block < b; });
-    return found != bins_.end() && found->block == block ? &*found : nullptr;
-}
-
 } // namespace scree

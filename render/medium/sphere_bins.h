@@ -10,7 +10,7 @@
 
 namespace scree {
 
-/// Mean radii of spheres, weighted by volume: what most of the material is made of.
+/// The mean radius of spheres, weighted by volume: what most of the material is made of.
 ///
 /// margin: by which the radii are widened. 0 without spheres. Summed in an order of its own: the same on any number of threads.
 double volume_weighted_radius(std::span<const GrainStore::Sphere> spheres, const FloatMargin& margin);
@@ -34,13 +34,10 @@ public:
     /// Sets the first and last voxel that a sphere concerns; false: none.
     using Range = std::function<bool(uint32_t sphere, Voxel& first, Voxel& last)>;
 
-    /// count: of spheres. Throws InputError for voxels farther than 2^20 blocks from the first.
+    /// count: of spheres. Throws InputError for voxels farther than 2^20 blocks from voxel 0.
     SphereBins(uint32_t count, int edge, const Range& range);
 
     std::span<const Bin> bins() const { return bins_; }
-    /// The bin of a block, or nothing.
-    const Bin* find(const Voxel& block) const;
-    uint64_t bytes() const { return entries_.size() * sizeof(Entry) + bins_.size() * sizeof(Bin); }
 
 private:
     std::vector<Entry> entries_;
