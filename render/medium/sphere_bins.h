@@ -1,0 +1,47 @@
+#pragma once
+
+#include "render/grains/grain_store.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace scree {
+
+/// The mean radius of spheres, weighted by volume: what most of the material is made of.
+///
+/// margin: by which the radii are widened. 0 without spheres. Summed in an order of its own: the same on any number of threads.
+double volume_weighted_radius(std::span<const GrainStore::Sphere> spheres, const FloatMargin& margin);
+
+/// Which spheres concern which block of a lattice of voxels: a sorted list, as long as what is filled and not as the space is large.
+///
+/// A block is `edge` voxels along each side; its first voxel is edge * (x, y, z).
+class SphereBins {
+public:
+    using Voxel = std::array<int64_t, 3>;
+    struct Entry {
+        uint64_t key;
+        uint32_t sphere;
+        bool operator<(const Entry& other) const { return key != other.key ? key < other.key : sphere < other.sphere; }
+    };
+    /// The spheres of one block, in the order of the list.
+    struct Bin {
+        Voxel block;
+        std::span<const Entry> entries;
+    };
+    /// Sets the first and last voxel that a sphere concerns; false: none.
+    using Range = std::function<bool(uint32_t sphere, Voxel& first, Voxel& last)>;
+
+    /// count: of spheres. Throws InputError for voxels farther than 2^20 blocks from voxel 0.
+    SphereBins(uint32_t count, int edge, const Range& range);
+
+    std::span<const Bin> bins() const { return bins_; }
+
+private:
+    std::vector<Entry> entries_;
+    std::vector<Bin> bins_; ///< in order of their keys
+};
+
+} // namespace scree
