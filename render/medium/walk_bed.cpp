@@ -1,0 +1,106 @@
+#include "render/medium/walk_bed.h"
+
+#include "mixtures/hash.h"
+#include "packing/tile_generator.h"
+
+namespace scree {
+
+namespace {
+
+/// Types by row of a tile: one of those that its spheres were seen to have.
+class RowMixture : public Mixture {
+public:
+    RowMixture(std::vector<std::vector<uint8_t>> types, uint8_t other) : types_(std::move(types)), other_(other) {}
+    uint32_t type(uint64_t index, const V3f&) const override
+    {
+        const std::vector<uint8_t>& seen = types_[index % types_.size()];
+        return seen.empty() ? other_ : seen[hash_index(index, 1) % seen.size()];
+    }
+
+private:
+    std::vector<std::vector<uint8_t>> types_;
+    uint8_t other_;
+};
+
+/// A tile of some of the sample's grains; fewer of them are as good a random packing. The rows are those of `taken`.
+std::shared_ptr<const PackingTile> pack(const PackingSample& sample, std::vector<PackingSample::Grain>& taken, const Progress& progress)
+{
+    constexpr size_t most = 1000;
+    std::vector<PackingSample::Grain> sorted = sample.grains;
+    std::ranges::stable_sort(sorted, {}, &PackingSample::Grain::radius);
+    const size_t count = std::min(most, sorted.size());
+    std::vector<double> radii;
+    for (size_t i = 0; i < count; ++i) { // every so many in order of size
+        taken.push_back(sorted[(2 * i + 1) * sorted.size() / (2 * count)]);
+        radii.push_back(taken.back().radius);
+    }
+    while (radii.size() < most) { // of a few grains many
+        taken.push_back(taken[radii.size() % count]);
+        radii.push_back(taken.back().radius);
+    }
+    constexpr double densest = 0.62; // what random packings of most sizes reach
+    TileOptions options;
+    options.fraction = std::min(sample.pack_rate, densest);
+    options.variants = 1;
+    return std::make_shared<const PackingTile>(make_tile(radii, options, progress).tile);
+}
+
+TriangleMesh cube_of(double half)
+{
+    TriangleMesh mesh;
+    for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half);
+    mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    return mesh;
+}
+
+} // namespace
+
+PackingWalk walk_like(const World& world, const PackingSample& sample, const Progress& progress)
+{
+    std::vector<PackingSample::Grain> grains;
+    std::shared_ptr<const PackingTile> tile;
+    if (world.fill) {
+        grains = sample.grains;
+        tile = std::shared_ptr<const PackingTile>(world.fill, &world.fill->fill().tile());
+    } else {
+        tile = pack(sample, grains, progress);
+        for (size_t row = 0; row < grains.size(); ++row) grains[row].row = row;
+    }
+    std::vector<std::vector<uint8_t>> types(tile->rows());
+    for (const PackingSample::Grain& grain : grains) types[grain.row].push_back(grain.type);
+
+    // Mean radii as the unit of length, whatever it is in the world.
+    const double unit = world.fill ? world.fill->fill().tile().mean_radius() * world.fill->fill().scale() * world.space.length(1) : sample.mean_radius();
+    constexpr double half = 3000; // no walk comes near the faces, and a larger cube costs no more
+    World bed;
+    bed.types = world.types;
+    for (GrainType& type : bed.types) {
+        type.material.absorption *= static_cast<float>(unit);
+        type.exemplar = nullptr; // grains are proxies
+    }
+    const auto fill = std::make_shared<ProceduralFill>(std::make_shared<const Domain>(cube_of(half), "a cube"), tile, FillOptions{1, 0});
+    bed.fill = std::make_shared<GrainFill>(fill, std::make_shared<RowMixture>(std::move(types), grains.front().type), bed.space);
+    bed.domain = fill->domain().bounds();
+    const Tracer tracer(std::make_shared<EmbreeDevice>(), bed);
+    PackingWalkOptions options;
+    options.start_radius = 0.2 * half;
+    options.safe_radius = 0.95 * half;
+    PackingWalk walk = walk_packing(bed, tracer, options, progress);
+    for (Measured* length : {&walk.void_flight, &walk.flight, &walk.transport_length, &walk.half_transport_length}) {
+        length->value *= unit;
+        length->error *= unit;
+    }
+    for (Measured* area : {&walk.diffusivity, &walk.half_diffusivity}) {
+        area->value *= unit * unit;
+        area->error *= unit * unit;
+    }
+    for (PackingDecay& decay : walk.decay) {
+        for (Measured* rate : {&decay.kappa, &decay.check}) {
+            rate->value /= unit;
+            rate->error /= unit;
+        }
+    }
+    return walk;
+}
+
+} // namespace scree
