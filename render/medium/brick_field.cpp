@@ -12,8 +12,12 @@ std::array<double, 3> BrickField::at(const V3d& p) const
     }
     const Region region = inside ? find(brick) : Region{};
     if (region.content < 0) return {double{background[0]}, double{background[1]}, double{background[2]}};
-    const int32_t mask = ~(region.size - 1);
-    return at(contents[static_cast<size_t>(region.content)], {(brick[0] & mask) * width, (brick[1] & mask) * width, (brick[2] & mask) * width}, p);
+    const Content& content = contents[static_cast<size_t>(region.content)];
+    std::array<double, 3> result{};
+    for (size_t plane = 0; plane < static_cast<size_t>(planes); ++plane)
+        result[plane] = content.constant ? double{values[content.offset + plane]}
+                                         : at_brick(content.offset + plane * corners, {brick[0] * width, brick[1] * width, brick[2] * width}, p);
+    return result;
 }
 
 uint64_t BrickField::bytes() const

@@ -57,14 +57,9 @@ struct BrickField {
         return {(entry & 3) == entry_content ? static_cast<int32_t>(entry >> 2) : -1, 1 << shift};
     }
 
-    /// The value at a place of a brick that begins at `low` (field coordinates); places outside are moved to its faces.
-    std::array<double, 3> at(const Content& content, const std::array<int32_t, 3>& low, const V3d& p) const
-    {
-        std::array<double, 3> result{};
-        for (int plane = 0; plane < planes; ++plane) result[static_cast<size_t>(plane)] = at(content, low, p, plane);
-        return result;
-    }
-    double at(const Content& content, const std::array<int32_t, 3>& low, const V3d& p, int plane) const;
+    /// One plane's value at a place of a brick, not constant, that begins at `low` (field coordinates); places outside are moved to
+    /// its faces. offset: the content's, plus `corners` for each plane before.
+    double at_brick(uint64_t offset, const std::array<int32_t, 3>& low, const V3d& p) const;
 
     /// The value anywhere.
     std::array<double, 3> at(const V3d& p) const;
@@ -79,15 +74,14 @@ struct BrickField {
     std::vector<std::array<uint32_t, 512>> nodes;
 };
 
-inline double BrickField::at(const Content& content, const std::array<int32_t, 3>& low, const V3d& p, int plane) const
+inline double BrickField::at_brick(uint64_t offset, const std::array<int32_t, 3>& low, const V3d& p) const
 {
-    if (content.constant) return double{values[content.offset + static_cast<size_t>(plane)]};
     // Rounding may have put the place a little outside of the brick that the ray is in.
     constexpr double last = width - 1;
     const double x = p.x - low[0], y = p.y - low[1], z = p.z - low[2];
     const double i = std::min(std::max(std::floor(x), 0.0), last), j = std::min(std::max(std::floor(y), 0.0), last),
                  k = std::min(std::max(std::floor(z), 0.0), last);
-    const float* v = values.data() + content.offset + static_cast<size_t>(plane) * corners
+    const float* v = values.data() + offset
                    + static_cast<size_t>((static_cast<int32_t>(i) * stride + static_cast<int32_t>(j)) * stride + static_cast<int32_t>(k));
     if (nearest) return double{v[0]};
     const auto weight = [](double f) { return static_cast<float>(std::min(std::max(f, 0.0), 1.0)); };
@@ -102,14 +96,19 @@ inline double BrickField::at(const Content& content, const std::array<int32_t, 3
 /// A ray in field coordinates, with the parameter of the ray it was made from.
 struct FieldRay {
     V3d o, d;
-    V3d inverse;                 ///< 1 / d where step is not 0
-    std::array<int32_t, 3> step; ///< sign of d; 0 also where 1 / d is not finite: the ray does not get anywhere along it
+    V3d inverse;                  ///< 1 / d, or what stands for infinity where d is next to 0
+    std::array<int32_t, 3> step;  ///< sign of d; 0 where d is next to 0: the ray does not get anywhere along that axis
+    std::array<int32_t, 3> ahead; ///< the face where it leaves a cell, in cells from its low one; where step is 0 one beyond: never
 
     FieldRay(const V3d& origin, const V3d& direction) : o(origin), d(direction)
     {
         for (int k = 0; k < 3; ++k) {
+            const size_t a = static_cast<size_t>(k);
             inverse[k] = 1 / d[k];
-            step[static_cast<size_t>(k)] = !std::isfinite(inverse[k]) ? 0 : d[k] > 0 ? 1 : -1;
+            const bool moves = std::abs(inverse[k]) < 1e150; // far beyond any voxel's width, far below the other
+            if (!moves) inverse[k] = 1e290;
+            step[a] = !moves ? 0 : d[k] > 0 ? 1 : -1;
+            ahead[a] = !moves ? 2 : d[k] > 0 ? 1 : 0;
         }
     }
     V3d at(double t) const { return o + d * t; }
@@ -117,27 +116,20 @@ struct FieldRay {
     bool clip(const Imath::Box3d& box, double& t0, double& t1) const;
 };
 
-/// Steps along a ray through cells of `size[...]` units; exits[k] is where the cell that begins at low ends, in units of field coordinates.
+/// Where a ray leaves the cell of `size` units that begins at low: through the faces whose distance is the exit (two or three
+/// of them in an edge or corner).
 ///
-/// Every step moves on by at least one cell along an axis, and never back: rounding cannot make it loop.
+/// Every step moves on by a cell along an axis at least, and never back: rounding cannot make a walk loop.
 struct RayStep {
+    std::array<double, 3> faces;
     double exit;
-    int axis; ///< -1: the ray ends inside
 
-    RayStep(const FieldRay& ray, const std::array<int32_t, 3>& low, int32_t size, double t0, double t1) : exit(t1), axis(-1)
+    RayStep(const FieldRay& ray, const std::array<int32_t, 3>& low, int32_t size)
     {
-        for (int k = 0; k < 3; ++k) {
-            const int32_t step = ray.step[static_cast<size_t>(k)];
-            if (step == 0) continue;
-            const int32_t face = low[static_cast<size_t>(k)] + (step > 0 ? size : 0);
-            const double t = (face - ray.o[k]) * ray.inverse[k];
-            if (t < exit) {
-                exit = t;
-                axis = k;
-            }
-        }
-        exit = std::max(exit, t0);
+        for (size_t k = 0; k < 3; ++k) faces[k] = (low[k] + ray.ahead[k] * size - ray.o[static_cast<int>(k)]) * ray.inverse[static_cast<int>(k)];
+        exit = std::min(std::min(faces[0], faces[1]), faces[2]);
     }
+    bool leaves_through(size_t axis) const { return faces[axis] <= exit; }
 };
 
 /// Calls visit(content index, low corner in cells, t0, t1) for each region along t0..t1 that is not empty, in order, until it
@@ -156,22 +148,26 @@ template <class Visit> void walk_bricks(const BrickField& field, const FieldRay&
         const BrickField::Region region = field.find(brick);
         const int32_t mask = ~(region.size - 1);
         const std::array<int32_t, 3> low{(brick[0] & mask) * BrickField::width, (brick[1] & mask) * BrickField::width, (brick[2] & mask) * BrickField::width};
-        const RayStep step(ray, low, region.size * BrickField::width, t0, t1);
-        if (region.content >= 0 && visit(region.content, low, t0, step.exit)) return;
-        if (step.axis < 0) return;
+        const RayStep step(ray, low, region.size * BrickField::width);
+        const double t = std::min(std::max(step.exit, t0), t1);
+        if (region.content >= 0 && visit(region.content, low, t0, t)) return;
+        if (!(step.exit < t1)) return;
         if (region.size > 1) {
-            const V3d p = ray.at(step.exit);
+            const V3d p = ray.at(t);
             for (int k = 0; k < 3; ++k) {
                 const size_t a = static_cast<size_t>(k);
                 const int32_t first = brick[a] & mask, last = first + region.size - 1;
-                if (k == step.axis) brick[a] = ray.step[a] > 0 ? last : first;
+                if (step.leaves_through(a)) brick[a] = ray.step[a] > 0 ? last : first;
                 else brick[a] = ray.step[a] > 0 ? brick_at(p, k, brick[a], last) : ray.step[a] < 0 ? brick_at(p, k, first, brick[a]) : brick[a];
             }
         }
-        const size_t axis = static_cast<size_t>(step.axis);
-        brick[axis] += ray.step[axis];
-        if (brick[axis] < 0 || brick[axis] >= field.bricks[axis]) return;
-        t0 = step.exit;
+        bool inside = true;
+        for (size_t k = 0; k < 3; ++k) {
+            brick[k] += step.leaves_through(k) ? ray.step[k] : 0;
+            inside &= static_cast<uint32_t>(brick[k]) < static_cast<uint32_t>(field.bricks[k]);
+        }
+        if (!inside) return;
+        t0 = t;
     }
 }
 
@@ -185,13 +181,17 @@ bool walk_cells(const FieldRay& ray, const std::array<int32_t, 3>& low, double t
     for (size_t k = 0; k < 3; ++k)
         cell[k] = low[k] + static_cast<int32_t>(std::min(std::max(std::floor(start[static_cast<int>(k)] - low[k]), 0.0), double{BrickField::width - 1}));
     for (;;) {
-        const RayStep step(ray, cell, 1, t0, t1);
-        if (visit(cell, t0, step.exit)) return true;
-        if (step.axis < 0) return false;
-        const size_t axis = static_cast<size_t>(step.axis);
-        cell[axis] += ray.step[axis];
-        if (cell[axis] < low[axis] || cell[axis] >= low[axis] + BrickField::width) return false;
-        t0 = step.exit;
+        const RayStep step(ray, cell, 1);
+        const double t = std::min(std::max(step.exit, t0), t1);
+        if (visit(cell, t0, t)) return true;
+        if (!(step.exit < t1)) return false;
+        bool inside = true;
+        for (size_t k = 0; k < 3; ++k) {
+            cell[k] += step.leaves_through(k) ? ray.step[k] : 0;
+            inside &= static_cast<uint32_t>(cell[k] - low[k]) < uint32_t{BrickField::width};
+        }
+        if (!inside) return false;
+        t0 = t;
     }
 }
 

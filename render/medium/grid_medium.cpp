@@ -84,9 +84,14 @@ public:
     C3f chromatic_transmittance(double t0, double t1, Sampler& sampler) const;
 
 private:
-    const BrickField::Content& content(int32_t index) const { return field_.contents[static_cast<size_t>(index)]; }
-    double sigma_at(int32_t index, const Cell& low, const V3d& p) const { return medium_.scale[0] * field_.at(content(index), low, p, 0); }
-    Sigma sigmas_at(int32_t index, const Cell& low, const V3d& p) const { return medium_.sigma_of(field_.at(content(index), low, p)); }
+    const DensityRegion& regions(int32_t index) const { return medium_.regions[static_cast<size_t>(index)]; }
+    double sigma_at(const DensityRegion& region, const Cell& low, const V3d& p) const { return medium_.scale[0] * field_.at_brick(region.offset, low, p); }
+    Sigma sigmas_at(const DensityRegion& region, const Cell& low, const V3d& p) const
+    {
+        Sigma density{field_.at_brick(region.offset, low, p), 0, 0};
+        for (size_t plane = 1; plane < static_cast<size_t>(field_.planes); ++plane) density[plane] = field_.at_brick(region.offset + plane * BrickField::corners, low, p);
+        return medium_.sigma_of(density);
+    }
 
     /// Where a cell's cubic is known from; on faces the nearest voxel could be the neighbour's.
     std::array<V3d, 4> nodes(const Cell& cell, double t0, double t1) const
@@ -96,15 +101,15 @@ private:
         const double third = (t1 - t0) / 3;
         return {ray_.at(t0), ray_.at(t0 + third), ray_.at(t1 - third), ray_.at(t1)};
     }
-    CubicDensity cubic(int32_t index, const Cell& low, const Cell& cell, double t0, double t1) const
+    CubicDensity cubic(const DensityRegion& region, const Cell& low, const Cell& cell, double t0, double t1) const
     {
         const std::array<V3d, 4> p = nodes(cell, t0, t1);
-        return {{sigma_at(index, low, p[0]), sigma_at(index, low, p[1]), sigma_at(index, low, p[2]), sigma_at(index, low, p[3])}, t1 - t0};
+        return {{sigma_at(region, low, p[0]), sigma_at(region, low, p[1]), sigma_at(region, low, p[2]), sigma_at(region, low, p[3])}, t1 - t0};
     }
-    std::array<CubicDensity, 3> cubics(int32_t index, const Cell& low, const Cell& cell, double t0, double t1) const
+    std::array<CubicDensity, 3> cubics(const DensityRegion& region, const Cell& low, const Cell& cell, double t0, double t1) const
     {
         const std::array<V3d, 4> p = nodes(cell, t0, t1);
-        const std::array<Sigma, 4> f{sigmas_at(index, low, p[0]), sigmas_at(index, low, p[1]), sigmas_at(index, low, p[2]), sigmas_at(index, low, p[3])};
+        const std::array<Sigma, 4> f{sigmas_at(region, low, p[0]), sigmas_at(region, low, p[1]), sigmas_at(region, low, p[2]), sigmas_at(region, low, p[3])};
         std::array<CubicDensity, 3> result;
         for (size_t c = 0; c < 3; ++c) result[c] = {{f[0][c], f[1][c], f[2][c], f[3][c]}, t1 - t0};
         return result;
@@ -120,10 +125,10 @@ std::optional<double> Walk::event(double t0, double t1, Sampler& sampler) const
     double depth = draw_optical_depth(sampler); // what is left until the next collision
     std::optional<double> scattered;
     walk_bricks(field_, ray_, t0, t1, [&](int32_t index, const Cell& low, double from, double to) {
-        const DensityRegion& region = medium_.regions[static_cast<size_t>(index)];
+        const DensityRegion& region = regions(index);
         if (region.kind == Kind::exact)
             return walk_cells(ray_, low, from, to, [&](const Cell& cell, double a, double b) {
-                const CubicDensity along = cubic(index, low, cell, a, b);
+                const CubicDensity along = cubic(region, low, cell, a, b);
                 const double passed = along.integral();
                 if (depth < passed) {
                     scattered = std::min(b, a + (b - a) * along.find(depth));
@@ -132,7 +137,6 @@ std::optional<double> Walk::event(double t0, double t1, Sampler& sampler) const
                 depth -= passed;
                 return false;
             });
-        const double least = region.kind == Kind::constant ? region.majorant : region.least[0];
         for (;;) {
             const double passed = region.majorant * (to - from);
             if (depth >= passed) {
@@ -141,8 +145,8 @@ std::optional<double> Walk::event(double t0, double t1, Sampler& sampler) const
             }
             from += depth / region.majorant;
             // What is real whatever the density there needs no lookup.
-            const double u = least < region.majorant ? sampler.next() * region.majorant : 0;
-            if (u < least || u < sigma_at(index, low, ray_.at(from))) {
+            const double u = region.least < region.majorant ? sampler.next() * region.majorant : 0;
+            if (u < region.least || u < sigma_at(region, low, ray_.at(from))) {
                 scattered = from;
                 return true;
             }
@@ -168,9 +172,9 @@ std::optional<double> Walk::chromatic_event(double t0, double t1, SpectralState&
             for (size_t c = 0; c < 3; ++c) ratio[c] *= sigma[c] / sigma[hero];
     };
     walk_bricks(field_, ray_, t0, t1, [&](int32_t index, const Cell& low, double from, double to) {
-        const DensityRegion& region = medium_.regions[static_cast<size_t>(index)];
+        const DensityRegion& region = regions(index);
         if (region.kind == Kind::constant) {
-            Sigma sigma = region.least;
+            const Sigma& sigma = medium_.least[static_cast<size_t>(index)];
             const double length = std::min(to - from, depth / sigma[hero]);
             const bool ends = depth < sigma[hero] * (to - from);
             pass({sigma[0] * length, sigma[1] * length, sigma[2] * length});
@@ -182,11 +186,11 @@ std::optional<double> Walk::chromatic_event(double t0, double t1, SpectralState&
         }
         if (region.kind == Kind::exact)
             return walk_cells(ray_, low, from, to, [&](const Cell& cell, double a, double b) {
-                std::array<CubicDensity, 3> along = cubics(index, low, cell, a, b);
+                std::array<CubicDensity, 3> along = cubics(region, low, cell, a, b);
                 const bool ends = depth < along[hero].integral();
                 if (ends) {
                     scattered = std::min(b, a + (b - a) * along[hero].find(depth));
-                    along = cubics(index, low, cell, a, *scattered);
+                    along = cubics(region, low, cell, a, *scattered);
                 }
                 const Sigma passed{along[0].integral(), along[1].integral(), along[2].integral()};
                 pass(passed);
@@ -201,7 +205,7 @@ std::optional<double> Walk::chromatic_event(double t0, double t1, SpectralState&
                 return false;
             }
             from += depth / region.majorant;
-            const Sigma sigma = sigmas_at(index, low, ray_.at(from));
+            const Sigma sigma = sigmas_at(region, low, ray_.at(from));
             if (sampler.next() * region.majorant < sigma[hero]) {
                 collide(sigma);
                 scattered = from;
@@ -229,20 +233,20 @@ double Walk::transmittance(double t0, double t1, Sampler& sampler) const
         return left == 0;
     };
     walk_bricks(field_, ray_, t0, t1, [&](int32_t index, const Cell& low, double from, double to) {
-        const DensityRegion& region = medium_.regions[static_cast<size_t>(index)];
+        const DensityRegion& region = regions(index);
         if (region.kind == Kind::exact)
             return walk_cells(ray_, low, from, to, [&](const Cell& cell, double a, double b) {
-                left *= std::exp(-cubic(index, low, cell, a, b).integral());
+                left *= std::exp(-cubic(region, low, cell, a, b).integral());
                 return is_lost();
             });
-        left *= std::exp(-region.least[0] * (to - from));
+        left *= std::exp(-region.least * (to - from));
         if (is_lost()) return true;
         const double residual = region.residual_majorant;
         if (residual == 0) return false;
         for (;;) {
             from += draw_optical_depth(sampler) / residual;
             if (!(from < to)) return false;
-            const double fraction = (sigma_at(index, low, ray_.at(from)) - region.least[0]) / residual;
+            const double fraction = (sigma_at(region, low, ray_.at(from)) - region.least) / residual;
             left *= 1 - std::min(1.0, std::max(0.0, fraction));
             if (is_lost()) return true;
         }
@@ -261,22 +265,23 @@ C3f Walk::chromatic_transmittance(double t0, double t1, Sampler& sampler) const
         return kept == 0;
     };
     walk_bricks(field_, ray_, t0, t1, [&](int32_t index, const Cell& low, double from, double to) {
-        const DensityRegion& region = medium_.regions[static_cast<size_t>(index)];
+        const DensityRegion& region = regions(index);
+        const Sigma& least = medium_.least[static_cast<size_t>(index)];
         if (region.kind == Kind::exact)
             return walk_cells(ray_, low, from, to, [&](const Cell& cell, double a, double b) {
-                const std::array<CubicDensity, 3> along = cubics(index, low, cell, a, b);
+                const std::array<CubicDensity, 3> along = cubics(region, low, cell, a, b);
                 for (size_t c = 0; c < 3; ++c) left[c] *= std::exp(-along[c].integral());
                 return is_lost();
             });
-        for (size_t c = 0; c < 3; ++c) left[c] *= std::exp(-region.least[c] * (to - from));
+        for (size_t c = 0; c < 3; ++c) left[c] *= std::exp(-least[c] * (to - from));
         if (is_lost()) return true;
         const double residual = region.residual_majorant;
         if (residual == 0) return false;
         for (;;) {
             from += draw_optical_depth(sampler) / residual;
             if (!(from < to)) return false;
-            const Sigma sigma = sigmas_at(index, low, ray_.at(from));
-            for (size_t c = 0; c < 3; ++c) left[c] *= 1 - std::min(1.0, std::max(0.0, (sigma[c] - region.least[c]) / residual));
+            const Sigma sigma = sigmas_at(region, low, ray_.at(from));
+            for (size_t c = 0; c < 3; ++c) left[c] *= 1 - std::min(1.0, std::max(0.0, (sigma[c] - least[c]) / residual));
             if (is_lost()) return true;
         }
     });

@@ -8,13 +8,6 @@ namespace {
 /// nothing: measured on clouds, a cell costs about as much as two of them.
 constexpr double most_steps = 24;
 
-bool is_uneven(const DensityRegion& region, size_t channels)
-{
-    double least = region.least[0];
-    for (size_t c = 1; c < channels; ++c) least = std::min(least, region.least[c]);
-    return least < 0.25 * region.majorant;
-}
-
 } // namespace
 
 void GridMediumData::prepare()
@@ -24,19 +17,24 @@ void GridMediumData::prepare()
     double edge = 0; // the longest of a cell
     for (int k = 0; k < 3; ++k) edge = std::max(edge, density.to_render.vector(V3d(k == 0, k == 1, k == 2)).length());
     regions.clear();
+    least.clear();
     regions.reserve(field.contents.size());
     for (const BrickField::Content& content : field.contents) {
         DensityRegion region;
         const auto wide = [](const std::array<float, 3>& v) { return std::array<double, 3>{double{v[0]}, double{v[1]}, double{v[2]}}; };
-        region.least = sigma_of(wide(content.low));
-        const Sigma high = sigma_of(wide(content.high));
+        const Sigma low = sigma_of(wide(content.low)), high = sigma_of(wide(content.high));
+        region.least = low[0];
+        region.offset = content.offset;
         for (size_t c = 0; c < 3; ++c) {
             region.majorant = std::max(region.majorant, high[c]);
-            region.residual_majorant = std::max(region.residual_majorant, high[c] - region.least[c]);
+            region.residual_majorant = std::max(region.residual_majorant, high[c] - low[c]);
         }
         using Kind = DensityRegion::Kind;
-        region.kind = content.constant ? Kind::constant
-                    : region.majorant * edge * BrickField::width > most_steps && is_uneven(region, achromatic ? 1 : 3) ? Kind::exact : Kind::delta;
+        // In a brick that is even enough, a fair part of the collisions are real: it may be as dense as it likes.
+        const double smallest = achromatic ? low[0] : std::min({low[0], low[1], low[2]});
+        const bool is_long = region.majorant * edge * BrickField::width > most_steps && smallest < 0.25 * region.majorant;
+        region.kind = content.constant ? Kind::constant : is_long ? Kind::exact : Kind::delta;
+        if (!achromatic) least.push_back(low);
         regions.push_back(region);
     }
 }

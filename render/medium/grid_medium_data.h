@@ -28,15 +28,17 @@ struct PlacedField {
 /// How a walk deals with one content of the density field.
 struct DensityRegion {
     enum class Kind { constant, delta, exact };
+    double majorant = 0;          ///< largest sigma_t of any channel
+    double least = 0;             ///< sigma_t of the first channel
+    double residual_majorant = 0; ///< largest of any channel's sigma_t less its least
+    uint64_t offset = 0;          ///< of the values
     Kind kind = Kind::constant;
-    double majorant = 0;               ///< largest sigma_t of any channel
-    std::array<double, 3> least{};     ///< sigma_t of each channel
-    double residual_majorant = 0;      ///< largest of any channel's sigma_t - least
 };
 
 struct GridMediumData {
     PlacedField density;
     std::vector<DensityRegion> regions; ///< one for each content of the density
+    std::vector<std::array<double, 3>> least; ///< sigma_t of each channel in each region, if not achromatic
     std::array<double, 3> scale{};      ///< sigma_t of density 1, per unit of render length
     bool achromatic = true;
     bool has_albedo = false, has_g = false;
