@@ -30,12 +30,19 @@ constexpr uint64_t most_root_entries = 1 << 15;
 struct Item {
     CoordBBox box;
     bool is_tile;
+    Values value; // of a tile
 };
 using Items = std::vector<uint32_t>;
 
 /// Bricks lo..hi along each axis, both included.
 struct BrickRange {
     std::array<int32_t, 3> lo, hi;
+};
+
+/// A brick whose values are to be filled in.
+struct Brick {
+    std::array<int32_t, 3> low; // in bricks
+    size_t content;
 };
 
 template <class GridType> class Builder {
@@ -81,7 +88,7 @@ private:
         const TreeType& tree = grid_.tree();
         for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) {
             for (auto value = leaf->cbeginValueAll(); value; ++value) check(values_of(*value), value.getCoord());
-            items_.push_back({leaf->getNodeBoundingBox(), false});
+            items_.push_back({leaf->getNodeBoundingBox(), false, {}});
             if (progress_.cancelled()) throw Cancelled();
         }
         auto tile = tree.cbeginValueAll();
@@ -90,7 +97,7 @@ private:
             const Values v = values_of(*tile);
             if (v == field_.background) continue;
             check(v, tile.getCoord());
-            items_.push_back({tile.getBoundingBox(), true});
+            items_.push_back({tile.getBoundingBox(), true, v});
         }
     }
 
@@ -128,8 +135,9 @@ private:
         }
         for (size_t k = 0; k < 3; ++k) {
             const uint64_t bricks = field_.root_size[k] << (3 * field_.levels);
-            if (bricks > (uint64_t{1} << 26))
-                throw InputError(place_, fmt::format("a grid of {} that spans {} voxels", limits_.name, bricks * width), "a span of at most 2^29 voxels along an axis");
+            constexpr int32_t farthest = 1 << 26;
+            if (bricks > farthest || all.lo[k] < -farthest || all.hi[k] > farthest)
+                throw InputError(place_, fmt::format("a grid of {} from voxel {} to {}", limits_.name, int64_t{all.lo[k]} * width, int64_t{all.hi[k]} * width), "voxels within 2^29 of 0");
             field_.bricks[k] = static_cast<int32_t>(bricks);
         }
     }
@@ -167,10 +175,33 @@ private:
                                     origin_[2] + static_cast<int32_t>(c % n[2]) * size});
     }
 
-    uint32_t add_content(const std::array<int32_t, 3>& low, int32_t size)
+    uint32_t add_content(const std::array<int32_t, 3>& low)
     {
+        bricks_.push_back({low, field_.contents.size()});
         field_.contents.emplace_back();
-        places_.push_back({low, size});
+        return static_cast<uint32_t>(field_.contents.size() - 1) << 2 | BrickField::entry_content;
+    }
+
+    /// Whether all corners of the region's cells lie in tiles of one value.
+    bool is_constant(const Items& items, const std::array<int32_t, 3>& low, int32_t size) const
+    {
+        CoordBBox region(Coord(low[0] * width, low[1] * width, low[2] * width), Coord((low[0] + size) * width, (low[1] + size) * width, (low[2] + size) * width).offsetBy(reach_ - 1));
+        uint64_t covered = 0;
+        for (const uint32_t index : items) {
+            const Item& item = items_[index];
+            if (!item.is_tile || item.value != items_[items[0]].value) return false;
+            CoordBBox common = region;
+            common.intersect(item.box);
+            covered += common.empty() ? 0 : common.volume();
+        }
+        return covered == region.volume();
+    }
+
+    uint32_t add_constant(const Values& value, const std::array<int32_t, 3>& low, int32_t size)
+    {
+        const V3d place((low[0] - origin_[0]) * width, (low[1] - origin_[1]) * width, (low[2] - origin_[2]) * width);
+        field_.support.extendBy(Imath::Box3d(place, place + V3d(double{width} * size)));
+        field_.contents.push_back({0, true, value, value});
         return static_cast<uint32_t>(field_.contents.size() - 1) << 2 | BrickField::entry_content;
     }
 
@@ -179,14 +210,8 @@ private:
     {
         if (items.empty()) return BrickField::entry_empty;
         const int32_t size = 1 << (3 * level);
-        if (items.size() == 1 && items_[items[0]].is_tile) {
-            // A region all of whose corners lie in one tile is as one brick of it.
-            const auto voxel = [](int32_t brick) { return brick * width; };
-            const CoordBBox region(Coord(voxel(low[0]), voxel(low[1]), voxel(low[2])),
-                                   Coord(voxel(low[0] + size), voxel(low[1] + size), voxel(low[2] + size)).offsetBy(reach_ - 1));
-            if (items_[items[0]].box.isInside(region)) return add_content(low, size);
-        }
-        if (level == 0) return add_content(low, 1);
+        if (is_constant(items, low, size)) return add_constant(items_[items[0]].value, low, size);
+        if (level == 0) return add_content(low);
         if (progress_.cancelled()) throw Cancelled();
         const std::vector<Items> children = deal(items, low, level - 1, {8, 8, 8});
         std::array<uint32_t, 512> node{};
@@ -218,36 +243,41 @@ private:
     void fill_bricks()
     {
         const size_t planes = static_cast<size_t>(field_.planes), size = planes * BrickField::corners;
-        std::vector<float> values(field_.contents.size() * size);
-        std::vector<Imath::Box3d> supports(field_.contents.size());
+        std::vector<float> values(bricks_.size() * size);
+        std::vector<Imath::Box3d> supports(bricks_.size());
         std::atomic<uint64_t> done{0};
-        tbb::parallel_for(size_t{0}, field_.contents.size(), [&](size_t i) {
+        tbb::parallel_for(size_t{0}, bricks_.size(), [&](size_t i) {
             if (progress_.cancelled()) return;
-            fill_brick(i, values.data() + i * size, supports[i]);
+            fill_brick(bricks_[i], values.data() + i * size, supports[i]);
             const uint64_t n = ++done;
-            if (n % 4096 == 0) progress_.update("grid of " + limits_.name, static_cast<double>(n) / static_cast<double>(field_.contents.size()));
+            if (n % 4096 == 0) progress_.update("grid of " + limits_.name, static_cast<double>(n) / static_cast<double>(bricks_.size()));
         });
         if (progress_.cancelled()) throw Cancelled();
         // Constant bricks keep one value: the others move up.
         size_t used = 0;
-        for (size_t i = 0; i < field_.contents.size(); ++i) {
-            BrickField::Content& content = field_.contents[i];
-            const float* from = values.data() + i * size;
-            content.offset = used;
-            if (content.constant)
-                for (size_t plane = 0; plane < planes; ++plane) values[used + plane] = from[plane * BrickField::corners];
-            else std::copy(from, from + size, values.data() + used);
-            used += content.constant ? planes : size;
+        for (size_t i = 0; i < bricks_.size(); ++i) {
+            BrickField::Content& content = field_.contents[bricks_[i].content];
             field_.support.extendBy(supports[i]);
+            if (content.constant) continue;
+            content.offset = used;
+            std::copy_n(values.data() + i * size, size, values.data() + used);
+            used += size;
         }
-        field_.values.assign(values.begin(), values.begin() + static_cast<int64_t>(used));
+        values.resize(used);
+        for (BrickField::Content& content : field_.contents) {
+            if (!content.constant) continue;
+            content.offset = values.size();
+            values.insert(values.end(), content.low.begin(), content.low.begin() + static_cast<int64_t>(planes));
+        }
+        values.shrink_to_fit();
+        field_.values = std::move(values);
     }
 
-    void fill_brick(size_t index, float* values, Imath::Box3d& support)
+    void fill_brick(const Brick& brick_and_content, float* values, Imath::Box3d& support)
     {
         const Accessor accessor(grid_.tree());
-        BrickField::Content& content = field_.contents[index];
-        const auto& [brick, bricks] = places_[index]; // a larger region is constant: its first brick tells all
+        const std::array<int32_t, 3>& brick = brick_and_content.low;
+        BrickField::Content& content = field_.contents[brick_and_content.content];
         const Coord low(brick[0] * width, brick[1] * width, brick[2] * width);
         content.low.fill(std::numeric_limits<float>::max());
         content.high.fill(std::numeric_limits<float>::lowest());
@@ -273,7 +303,7 @@ private:
         support = Imath::Box3d(place + used.min - V3d(reach_), place + used.max + V3d(1));
         for (int k = 0; k < 3; ++k) {
             support.min[k] = std::max(support.min[k], place[k]);
-            support.max[k] = bricks > 1 ? place[k] + double{width} * bricks : std::min(support.max[k], place[k] + width);
+            support.max[k] = std::min(support.max[k], place[k] + width);
         }
     }
 
@@ -301,11 +331,7 @@ private:
     int32_t reach_; // of a cell beyond its lowest corner
     std::vector<Item> items_;
     std::array<int32_t, 3> origin_{}; // in bricks
-    struct Place {
-        std::array<int32_t, 3> low;
-        int32_t size;
-    };
-    std::vector<Place> places_; // of the contents, in bricks
+    std::vector<Brick> bricks_;
     BrickField field_;
 };
 
