@@ -129,9 +129,9 @@ void run(bool quick)
         const double setup = (busy_seconds() - start);
         Rate isotropic, forward;
         double shadows = 0, mean = 0;
-        const uint32_t paths = static_cast<uint32_t>((quick ? 4e5 : 4e6) / (3 + sigma * sigma / 10));
+        const uint32_t paths = static_cast<uint32_t>((quick ? 3e5 : 3e6) / (3 + sigma));
         for (int run = 0; run < (quick ? 1 : 3); ++run) {
-            const Rate a = walk(medium, 0, paths + 20), b = walk(medium, 0.85, 4 * paths + 20);
+            const Rate a = walk(medium, 0, paths), b = walk(medium, 0.85, paths);
             isotropic = {std::max(isotropic.events, a.events), a.per_path};
             forward = {std::max(forward.events, b.events), b.per_path};
             shadows = std::max(shadows, transmittances(medium, quick ? 50000 : 300000, mean));

@@ -25,18 +25,4 @@ uint64_t BrickField::bytes() const
     return contents.capacity() * sizeof(Content) + values.capacity() * sizeof(float) + root.capacity() * sizeof(uint32_t) + nodes.capacity() * sizeof(nodes[0]);
 }
 
-bool FieldRay::clip(const Imath::Box3d& box, double& t0, double& t1) const
-{
-    for (int k = 0; k < 3; ++k) {
-        if (step[static_cast<size_t>(k)] == 0) {
-            if (!(o[k] >= box.min[k] && o[k] <= box.max[k])) return false;
-            continue;
-        }
-        const double a = (box.min[k] - o[k]) * inverse[k], b = (box.max[k] - o[k]) * inverse[k];
-        t0 = std::max(t0, std::min(a, b));
-        t1 = std::min(t1, std::max(a, b));
-    }
-    return t0 < t1;
-}
-
 } // namespace scree

@@ -79,7 +79,7 @@ private:
             const double x = v[static_cast<size_t>(plane)];
             const bool good = limits_.open ? x > limits_.low && x < limits_.high : x >= limits_.low && x <= limits_.high;
             if (!good || !std::isfinite(x))
-                throw InputError(place_, fmt::format("a {} of {} at voxel ({}, {}, {})", limits_.name, x, where.x(), where.y(), where.z()), limits_.expected);
+                throw InputError(place_, fmt::format("{} of {} at voxel ({}, {}, {})", limits_.name, x, where.x(), where.y(), where.z()), limits_.expected);
         }
     }
 
@@ -335,72 +335,27 @@ private:
     BrickField field_;
 };
 
-/// scene = columns * voxel + constant.
-struct Placement {
-    std::array<V3d, 3> columns;
-    V3d constant;
-};
-
-Placement placement_of(const openvdb::GridBase& grid, const Imath::M44d& to_scene, const std::string& name, const std::string& place)
-{
-    const auto map = grid.transform().baseMap();
-    if (!map->isLinear()) throw InputError(place, fmt::format("a {} transform of the grid of {}", map->type(), name), "a linear (affine) transform", "resample the grid, frusta are not read");
-    const auto from_vdb = [](const openvdb::Vec3d& v) { return V3d(v.x(), v.y(), v.z()); };
-    Placement p;
-    for (int k = 0; k < 3; ++k) {
-        // The Jacobian, and not a difference of places: far from 0 that would lose digits.
-        const V3d column = from_vdb(map->applyJacobian(openvdb::Vec3d(k == 0, k == 1, k == 2)));
-        to_scene.multDirMatrix(column, p.columns[static_cast<size_t>(k)]);
-    }
-    to_scene.multVecMatrix(from_vdb(map->applyMap(openvdb::Vec3d(0))), p.constant);
-    return p;
-}
-
-void place_field(PlacedField& placed, const Placement& p, const Coord& origin, const RenderSpace& space, const std::string& name, const std::string& place)
-{
-    const V3d &x = p.columns[0], &y = p.columns[1], &z = p.columns[2];
-    // The adjugate is exact under scaling by powers of two.
-    const double determinant = x.dot(y.cross(z));
-    const std::array<V3d, 3> inverse{y.cross(z) / determinant, z.cross(x) / determinant, x.cross(y) / determinant};
-    for (const V3d& row : inverse)
-        if (!std::isfinite(row.x + row.y + row.z)) throw InputError(place, fmt::format("a transform of the grid of {} that cannot be inverted", name), "voxels that have a volume");
-    const double half = placed.field.nearest ? 0.5 : 0; // a voxel is around its centre
-    const V3d from_origin = space.origin - p.constant;
-    const V3d first(origin.x() - half, origin.y() - half, origin.z() - half);
-    for (size_t k = 0; k < 3; ++k) {
-        const V3d& row = inverse[k];
-        placed.to_field.rows[k] = V3d(space.world_length(row.x), space.world_length(row.y), space.world_length(row.z));
-        placed.to_field.b[static_cast<int>(k)] = row.dot(from_origin) - first[static_cast<int>(k)];
-        const int a = static_cast<int>(k);
-        placed.to_render.rows[k] = space.vector(V3d(x[a], y[a], z[a]));
-        placed.to_render.b[a] = space.length(x[a] * first.x + y[a] * first.y + z[a] * first.z - from_origin[a]);
-    }
-}
-
-template <class GridType> std::optional<PlacedField> build_as(const openvdb::GridBase& grid, const FieldLimits& limits, bool nearest,
-                                                              const std::string& place, const Progress& progress, Coord& origin)
+template <class GridType>
+std::optional<BrickField> build_as(const openvdb::GridBase& grid, const FieldLimits& limits, bool nearest, const std::string& place,
+                                   const Progress& progress, Coord& origin)
 {
     if (!grid.isType<GridType>()) return std::nullopt;
-    PlacedField placed;
-    placed.field = Builder<GridType>(static_cast<const GridType&>(grid), limits, nearest, place, progress).build(origin);
-    return placed;
+    return Builder<GridType>(static_cast<const GridType&>(grid), limits, nearest, place, progress).build(origin);
 }
 
 } // namespace
 
-PlacedField make_placed_field(const openvdb::GridBase& grid, const FieldLimits& limits, bool nearest, const Imath::M44d& to_scene,
-                              const RenderSpace& space, const std::string& place, const Progress& progress)
+BrickField make_brick_field(const openvdb::GridBase& grid, const FieldLimits& limits, bool nearest, const std::string& place,
+                            const Progress& progress, Coord& origin)
 {
-    const Placement placement = placement_of(grid, to_scene, limits.name, place);
-    Coord origin(0);
-    std::optional<PlacedField> placed = build_as<openvdb::FloatGrid>(grid, limits, nearest, place, progress, origin);
-    if (!placed) placed = build_as<openvdb::DoubleGrid>(grid, limits, nearest, place, progress, origin);
-    if (!placed && limits.vectors) placed = build_as<openvdb::Vec3SGrid>(grid, limits, nearest, place, progress, origin);
-    if (!placed && limits.vectors) placed = build_as<openvdb::Vec3DGrid>(grid, limits, nearest, place, progress, origin);
-    if (!placed)
-        throw InputError(place, fmt::format("{} as a grid of {}", limits.name, grid.valueType()), limits.vectors ? "a grid of float, double, vec3s or vec3d" : "a grid of float or double");
-    place_field(*placed, placement, origin, space, limits.name, place);
-    return std::move(*placed);
+    std::optional<BrickField> field = build_as<openvdb::FloatGrid>(grid, limits, nearest, place, progress, origin);
+    if (!field) field = build_as<openvdb::DoubleGrid>(grid, limits, nearest, place, progress, origin);
+    if (!field && limits.vectors) field = build_as<openvdb::Vec3SGrid>(grid, limits, nearest, place, progress, origin);
+    if (!field && limits.vectors) field = build_as<openvdb::Vec3DGrid>(grid, limits, nearest, place, progress, origin);
+    if (!field)
+        throw InputError(place, fmt::format("{} as a grid of {}", limits.name, grid.valueType()),
+                         limits.vectors ? "a grid of float, double, vec3s or vec3d" : "a grid of float or double");
+    return std::move(*field);
 }
 
 } // namespace scree

@@ -1,5 +1,6 @@
 #include "render/medium/grid_medium.h"
 
+#include "render/medium/brick_walk.h"
 #include "render/medium/grid_medium_data.h"
 
 #include <optional>

@@ -1,7 +1,7 @@
 #include "render/medium/grid_medium_build.h"
 
 #include "ingest/support/error.h"
-#include "render/medium/brick_field_build.h"
+#include "render/medium/placed_field_build.h"
 
 #include <fmt/format.h>
 

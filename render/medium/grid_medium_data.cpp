@@ -5,8 +5,8 @@ namespace scree {
 namespace {
 
 /// A brick is walked cell by cell where delta tracking through it could take more than this many steps, and most of them for
-/// nothing: measured on clouds, a cell costs about as much as two of them.
-constexpr double most_steps = 24;
+/// nothing. Not less: through a cloud whose bricks are 60 deep, delta tracking was still the faster by half.
+constexpr double most_steps = 256;
 
 } // namespace
 
@@ -24,7 +24,7 @@ void GridMediumData::prepare()
         const auto wide = [](const std::array<float, 3>& v) { return std::array<double, 3>{double{v[0]}, double{v[1]}, double{v[2]}}; };
         const Sigma low = sigma_of(wide(content.low)), high = sigma_of(wide(content.high));
         region.least = low[0];
-        region.offset = content.offset;
+        region.offset = content.offset & ((uint64_t{1} << 62) - 1);
         for (size_t c = 0; c < 3; ++c) {
             region.majorant = std::max(region.majorant, high[c]);
             region.residual_majorant = std::max(region.residual_majorant, high[c] - low[c]);

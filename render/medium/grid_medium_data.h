@@ -27,12 +27,12 @@ struct PlacedField {
 
 /// How a walk deals with one content of the density field.
 struct DensityRegion {
-    enum class Kind { constant, delta, exact };
+    enum class Kind : uint64_t { constant, delta, exact };
     double majorant = 0;          ///< largest sigma_t of any channel
     double least = 0;             ///< sigma_t of the first channel
     double residual_majorant = 0; ///< largest of any channel's sigma_t less its least
-    uint64_t offset = 0;          ///< of the values
-    Kind kind = Kind::constant;
+    uint64_t offset : 62 = 0;     ///< of the values
+    Kind kind : 2 = Kind::constant;
 };
 
 struct GridMediumData {

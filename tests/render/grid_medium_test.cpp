@@ -205,7 +205,7 @@ TEST(GridMedium, FreeFlights)
     }
 }
 
-/// One voxel a million times denser than the rest: right beside it and through it, and about as quick as without it.
+/// One voxel a million times denser than the rest: right beside it, grazing it and through it.
 TEST(GridMedium, OneDenseVoxel)
 {
     const double h = 0.05;
@@ -365,13 +365,13 @@ TEST(GridMedium, ChromaticClosedForms)
         C3f scale;
         bool uneven;
     };
-    for (const Case& c : {Case{{0.5f, 1.0f, 2.0f}, false}, Case{{0.0f, 1.0f, 3.0f}, false}, Case{{0.5f, 1.0f, 2.0f}, true}, Case{{20, 90, 150}, true}}) {
+    for (const Case& c : {Case{{0.5f, 1.0f, 2.0f}, false}, Case{{0.0f, 1.0f, 3.0f}, false}, Case{{0.5f, 1.0f, 2.0f}, true}, Case{{300, 700, 900}, true}}) {
         GridMediumOptions options;
         options.scale = c.scale;
         const GridMedium medium = make_medium(make_grid(edge, h, V3d(-1), [&](int i, int j, int k) { return c.uneven ? ((i + j + k) % 3) * 0.5 : 1.0; }), options);
         ASSERT_FALSE(medium.is_achromatic());
-        const double length = c.scale.z > 100 ? 0.06 : 0.8;
-        const Ray ray{{-0.71, -0.3, -0.2}, V3d(1, 0.4, 0.3).normalized(), 0, length};
+        const double length = c.scale.z > 100 ? 0.008 : 0.8;
+        const Ray ray{{-0.703, -0.3, -0.2}, V3d(1, 0.4, 0.3).normalized(), 0, length};
         std::array<Estimate, 3> scattered, passed, transmitted;
         for (uint32_t i = 0; i < 60000; ++i) {
             Sampler sampler(5, i, 0, 0);
