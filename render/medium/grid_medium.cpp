@@ -338,7 +338,7 @@ double GridMedium::largest_sigma_t() const
 uint64_t GridMedium::bytes() const
 {
     return sizeof(GridMediumData) + data_->density.field.bytes() + data_->albedo.field.bytes() + data_->g.field.bytes()
-         + data_->regions.capacity() * sizeof(DensityRegion);
+         + data_->regions.capacity() * sizeof(DensityRegion) + data_->least.capacity() * sizeof(Sigma);
 }
 
 C3f GridMedium::sigma_t(const V3d& p) const

@@ -29,17 +29,22 @@ GridMedium make_grid_medium(const MediumGrids& grids, const GridMediumOptions& o
     auto data = std::make_shared<GridMediumData>();
     data->options = options;
     for (int c = 0; c < 3; ++c) data->scale[static_cast<size_t>(c)] = space.world_length(double{options.scale[c]});
-    const auto placed = [&](const openvdb::GridBase& grid, const FieldLimits& limits) {
-        return make_placed_field(grid, limits, options.nearest, grids.to_scene, space, grids.place, progress);
+    const auto placed = [&](const openvdb::GridBase& grid, const FieldLimits& limits, const auto& may_be_outside, const std::string& outside) {
+        PlacedField field = make_placed_field(grid, limits, options.nearest, grids.to_scene, space, grids.place, progress);
+        for (size_t plane = 0; plane < static_cast<size_t>(field.field.planes); ++plane)
+            if (!may_be_outside(double{field.field.background[plane]}))
+                throw InputError(grids.place, fmt::format("{} of {} as background", limits.name, field.field.background[plane]), outside);
+        return field;
     };
-    data->density = placed(*grids.density, {.name = "density", .expected = "finite densities of 0 or more", .low = 0, .high = std::numeric_limits<double>::infinity(), .vectors = true});
-    for (size_t plane = 0; plane < static_cast<size_t>(data->density.field.planes); ++plane)
-        if (data->density.field.background[plane] != 0)
-            throw InputError(grids.place, fmt::format("a density of {} as background", data->density.field.background[plane]), "a background of 0", "a medium cannot fill all of space");
+    data->density = placed(*grids.density, {.name = "density", .expected = "finite densities of 0 or more", .low = 0, .high = std::numeric_limits<double>::infinity(), .vectors = true},
+                           [](double density) { return density == 0; }, "a background of 0: a medium cannot fill all of space");
     if (grids.albedo)
-        data->albedo = placed(*grids.albedo, {.name = "albedo", .expected = "albedos in 0..1", .low = 0, .high = 1, .vectors = true, .mean_beside = true});
+        data->albedo = placed(*grids.albedo, {.name = "albedo", .expected = "albedos in 0..1", .low = 0, .high = 1, .vectors = true, .mean_beside = true},
+                              [](double albedo) { return albedo >= 0 && albedo <= 1; }, "albedos in 0..1");
     data->has_albedo = grids.albedo != nullptr;
-    if (grids.g) data->g = placed(*grids.g, {.name = "g", .expected = "asymmetries between -1 and 1", .low = -1, .high = 1, .open = true, .mean_beside = true});
+    if (grids.g)
+        data->g = placed(*grids.g, {.name = "g", .expected = "asymmetries between -1 and 1", .low = -1, .high = 1, .open = true, .mean_beside = true},
+                         [](double g) { return std::abs(g) < 1; }, "asymmetries between -1 and 1");
     data->has_g = grids.g != nullptr;
     data->prepare();
     return GridMedium(std::move(data));

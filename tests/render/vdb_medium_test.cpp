@@ -110,6 +110,8 @@ TEST_F(VdbMedium, RefusesWhatNoMediumHas)
     nan->tree().setValue(Coord(1, 2, 3), std::numeric_limits<float>::quiet_NaN());
     auto background = FloatGrid::create(0.5f);
     background->setName("density");
+    auto far_lobe = FloatGrid::create(1);
+    far_lobe->setName("lobe");
     auto sphere = openvdb::tools::createLevelSetSphere<FloatGrid>(2, openvdb::Vec3f(0), 0.5f);
     sphere->setName("density");
     auto frustum = block("density", 1.0f);
@@ -120,13 +122,14 @@ TEST_F(VdbMedium, RefusesWhatNoMediumHas)
         {{negative}, {}, "density of -0.5 at voxel (3, 4, 5)", "0 or more"},
         {{nan}, {}, "density of nan at voxel (1, 2, 3)", "finite"},
         {{block("density", std::numeric_limits<float>::infinity())}, {}, "density of inf", "finite"},
-        {{background}, {}, "a density of 0.5 as background", "background of 0"},
+        {{background}, {}, "density of 0.5 as background", "background of 0"},
         {{sphere}, {}, "a level set", "fog volume"},
         {{frustum}, {}, "transform", "linear"},
         {{whole}, {}, "density as a grid of int32", "float, double, vec3s or vec3d"},
         {{density, block("a", 1.5f)}, with("a"), "albedo of 1.5", "0..1"},
         {{density, block("a", -0.1f)}, with("a"), "albedo of -0.1", "0..1"},
         {{density, block("lobe", 1.0f)}, with("", "lobe"), "g of 1 at", "between -1 and 1"},
+        {{density, far_lobe}, with("", "lobe"), "g of 1 as background", "between -1 and 1"},
         {{density, block<openvdb::Vec3SGrid>("lobe", openvdb::Vec3s(0.1f))}, with("", "lobe"), "g as a grid of vec3s", "float or double"},
     };
     VdbMediumOptions options;
