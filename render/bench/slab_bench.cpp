@@ -32,7 +32,7 @@ constexpr double wide = 40; // half its width over its thickness
 
 MediumRegion region(const V3d& lo, const V3d& hi, const ContinuousEquivalent& medium)
 {
-    MediumRegion region{"slab", {}, cube().triangles, nullptr, true};
+    MediumRegion region{"slab", {}, cube().triangles, nullptr, nullptr, true};
     for (const V3d& p : box(lo, hi).positions) region.positions.emplace_back(p);
     region.homogeneous = std::make_shared<HomogeneousMedium>(V3d(medium.sigma_t), C3f(V3f(medium.albedo)), medium.g);
     return region;

@@ -26,6 +26,7 @@ void Path::enter_world()
     regions_ = media_->inside(o_, d_);
     for (const MediumRegion& region : world_.regions) {
         if (region.is_achromatic()) continue;
+        is_spectral_ = true;
         spectral_.hero = std::min(static_cast<uint32_t>(3 * sampler_.next()), 2u);
         break;
     }
@@ -33,11 +34,17 @@ void Path::enter_world()
 
 MediumEvent Path::medium_event(double t0, double t1)
 {
+    // The nearest of all: media add up. One whose sigma_t depends on the channel comes last, to be walked no farther than it counts.
     MediumEvent first;
-    for_each_region(regions_, [&](uint32_t region) { // the nearest of all: media add up
-        const MediumEvent event = world_.regions[region].event(o_, d_, t0, first.scattered ? first.t : t1, spectral_, sampler_);
-        if (event.scattered) first = event;
-    });
+    for (const bool achromatic : {true, false}) {
+        for_each_region(regions_, [&](uint32_t number) {
+            const MediumRegion& region = world_.regions[number];
+            if (region.is_achromatic() != achromatic) return;
+            const MediumEvent event = region.event(o_, d_, t0, first.scattered ? first.t : t1, spectral_, sampler_);
+            if (event.scattered) first = event;
+        });
+        if (!is_spectral_) break;
+    }
     return first;
 }
 

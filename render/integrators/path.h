@@ -109,6 +109,7 @@ private:
     double passed_ = 0;        // along the ray: up to there media and their surfaces are behind
     double moved_ = 0;         // how far the camera's ray came before its start was moved
     SpectralState spectral_;
+    bool is_spectral_ = false; // some medium's sigma_t depends on the channel
     double beyond_ = 0;        // along the ray: where the last of the proxies was met that it missed
     uint32_t depth_ = 0;
     uint64_t steps_ = 0;

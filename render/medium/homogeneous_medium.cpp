@@ -12,13 +12,13 @@ MediumEvent HomogeneousMedium::event(double t0, double t1, SpectralState& state,
     const bool scattered = t < t1;
     if (!is_achromatic()) {
         const double length = (scattered ? t : t1) - t0;
+        C3f factor(1);
         for (int c = 0; c < 3; ++c) {
-            if (c == static_cast<int>(state.hero)) continue;
-            double ratio = sigma_t_[c] == sigma ? 1 : std::exp((sigma - sigma_t_[c]) * length);
-            if (scattered) ratio *= sigma_t_[c] / sigma;
-            // A walk so much likelier for another hero counts next to nothing here: bounded, so that it stays a number.
-            state.ratio[c] = static_cast<float>(std::min(state.ratio[c] * ratio, 1e30));
+            if (sigma_t_[c] == sigma) continue;
+            const double ratio = std::exp((sigma - sigma_t_[c]) * length) * (scattered ? sigma_t_[c] / sigma : 1);
+            factor[c] = static_cast<float>(std::min<double>(ratio, std::numeric_limits<float>::max()));
         }
+        state.multiply(factor);
     }
     return {scattered, t, albedo_, g_};
 }

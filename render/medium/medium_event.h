@@ -18,6 +18,11 @@ struct SpectralState {
     uint32_t hero = 0; ///< channel
     C3f ratio{1};      ///< density of this walk, had another channel been the hero, over its density
 
+    void multiply(const C3f& factor)
+    {
+        constexpr float most = 1e30f; // so much likelier for another hero, a walk counts nothing here; but it stays a number
+        for (int c = 0; c < 3; ++c) ratio[c] = std::min(ratio[c] * factor[c], most);
+    }
     C3f weight() const { return ratio * (3 / (ratio.x + ratio.y + ratio.z)); }
 };
 

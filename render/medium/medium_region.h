@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/medium/grid_medium.h"
 #include "render/medium/homogeneous_medium.h"
 
 #include <array>
@@ -14,17 +15,21 @@ struct MediumRegion {
     std::string name;
     std::vector<V3f> positions;
     std::vector<std::array<uint32_t, 3>> triangles; ///< closed, counter-clockwise from outside
-    std::shared_ptr<const HomogeneousMedium> homogeneous;
+    std::shared_ptr<const HomogeneousMedium> homogeneous; ///< this,
+    std::shared_ptr<const GridMedium> grid;               ///< or this
     bool instead_of_grains = false; ///< the medium stands for the grains in there, which are not met
 
-    bool is_achromatic() const { return homogeneous->is_achromatic(); }
+    bool is_achromatic() const { return homogeneous ? homogeneous->is_achromatic() : grid->is_achromatic(); }
     /// The first scattering in t0 < t < t1 along o + t d.
-    MediumEvent event(const V3d&, const V3d&, double t0, double t1, SpectralState& state, Sampler& sampler) const
+    MediumEvent event(const V3d& o, const V3d& d, double t0, double t1, SpectralState& state, Sampler& sampler) const
     {
-        return homogeneous->event(t0, t1, state, sampler);
+        return homogeneous ? homogeneous->event(t0, t1, state, sampler) : grid->event(o, d, t0, t1, state, sampler);
     }
     /// An unbiased estimate of what passes between t0 and t1.
-    C3f transmittance(const V3d&, const V3d&, double t0, double t1, Sampler&) const { return homogeneous->transmittance(t1 - t0); }
+    C3f transmittance(const V3d& o, const V3d& d, double t0, double t1, Sampler& sampler) const
+    {
+        return homogeneous ? homogeneous->transmittance(t1 - t0) : grid->transmittance(o, d, t0, t1, sampler);
+    }
 };
 
 } // namespace scree

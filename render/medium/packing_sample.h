@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ingest/support/progress.h"
 #include "render/medium/mixture_moments.h"
 #include "render/scene/world.h"
 

@@ -1,12 +1,66 @@
 #include "render/scene/medium_builder.h"
 
 #include "ingest/support/error.h"
+#include "render/medium/vdb_medium.h"
 #include "render/scene/content_hash.h"
 #include "render/scene/region_tracer.h"
 
 #include <fmt/format.h>
 
+#include <fstream>
+
 namespace scree {
+
+namespace {
+
+VdbMediumOptions vdb_options(const MediumDescription& medium)
+{
+    return {medium.density, medium.albedo_grid, medium.g_grid, {medium.sigma_t, medium.albedo, medium.g, medium.nearest}, {}};
+}
+
+TriangleMesh box_mesh(const Imath::Box3d& box)
+{
+    TriangleMesh mesh;
+    for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z);
+    mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    return mesh;
+}
+
+/// A name for messages: the file's.
+std::string name_of(const MediumDescription& medium) { return (medium.mesh.empty() ? medium.vdb : medium.mesh).filename().string(); }
+
+uint64_t hash_file(const std::filesystem::path& file, uint64_t seed)
+{
+    std::ifstream in(file, std::ios::binary);
+    std::vector<char> block(1 << 20);
+    while (in) {
+        in.read(block.data(), static_cast<std::streamsize>(block.size()));
+        seed = hash_bytes(block.data(), static_cast<size_t>(in.gcount()), seed);
+    }
+    return seed;
+}
+
+Imath::Box3d bounds_of_region(const MediumRegion& region)
+{
+    Imath::Box3d box;
+    for (const V3f& p : region.positions) box.extendBy(V3d(p));
+    return box;
+}
+
+} // namespace
+
+void MediumBuilder::refuse_overlaps(const World& world) const
+{
+    // A path samples media that it is in one after the other; two whose sigma_t depends on the channel would not know of each other.
+    for (size_t i = 0; i < world.regions.size(); ++i) {
+        for (size_t j = 0; j < i; ++j) {
+            const MediumRegion &a = world.regions[i], &b = world.regions[j];
+            if (a.is_achromatic() || b.is_achromatic() || !bounds_of_region(a).intersects(bounds_of_region(b))) continue;
+            throw InputError(scene_.file.string() + ": /medium", fmt::format("'{}' and '{}', of both of which the extinction depends on the channel, within one box", a.name, b.name),
+                             "media apart from each other, or one of them with the same extinction in all channels");
+        }
+    }
+}
 
 MediumBuilder::MediumBuilder(const SceneDescription& scene) : scene_(scene)
 {
@@ -18,27 +72,53 @@ MediumBuilder::MediumBuilder(const SceneDescription& scene) : scene_(scene)
 std::vector<V3d> MediumBuilder::read()
 {
     std::vector<V3d> points;
-    for (size_t i = meshes_.size(); i < scene_.media.size(); ++i) meshes_.push_back(read_closed_mesh(scene_.media[i].mesh, "as a medium is inside it"));
+    for (size_t i = meshes_.size(); i < scene_.media.size(); ++i) {
+        const MediumDescription& medium = scene_.media[i];
+        if (!medium.mesh.empty()) {
+            meshes_.push_back(read_closed_mesh(medium.mesh, "as a medium is inside it"));
+            continue;
+        }
+        const Imath::Box3d box = vdb_medium_bounds(medium.vdb, vdb_options(medium));
+        meshes_.push_back(box.isEmpty() ? TriangleMesh{} : box_mesh(box));
+    }
     for (const TriangleMesh& mesh : meshes_) points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
     return points;
 }
 
-uint64_t MediumBuilder::build(World& world, std::vector<PartReport>& parts, uint64_t hash) const
+uint64_t MediumBuilder::build(World& world, std::vector<PartReport>& parts, uint64_t hash, const Progress& progress)
 {
     for (size_t i = 0; i < scene_.media.size(); ++i) {
         const MediumDescription& medium = scene_.media[i];
+        const std::string part = "medium '" + name_of(medium) + "'";
+        if (meshes_[i].triangles.empty()) {
+            parts.push_back({part, false, "its grid is empty"});
+            continue;
+        }
         const Stopwatch watch;
         MediumRegion region;
-        region.name = medium.mesh.filename().string();
+        region.name = name_of(medium);
         region.triangles = meshes_[i].triangles;
         for (const V3d& p : meshes_[i].positions) region.positions.emplace_back(world.space.point(p));
-        const double unit = world.space.world_length(1);
-        region.homogeneous = std::make_shared<HomogeneousMedium>(unit * V3d(medium.sigma_t.x, medium.sigma_t.y, medium.sigma_t.z), medium.albedo, medium.g);
-        const uint64_t bytes = region.triangles.size() * sizeof(region.triangles[0]) + region.positions.size() * sizeof(V3f);
-        parts.push_back({"medium '" + region.name + "'", true, fmt::format("the same everywhere within {} triangles", region.triangles.size()), watch.seconds(), bytes});
+        uint64_t bytes = region.triangles.size() * sizeof(region.triangles[0]) + region.positions.size() * sizeof(V3f);
+        std::string what = "the same everywhere";
+        if (medium.mesh.empty()) {
+            Made& made = grids_[i]; // a film of grains mostly stays in one space
+            if (!made.grid || made.space.origin != world.space.origin || made.space.exponent != world.space.exponent) {
+                made = {std::make_shared<GridMedium>(read_vdb_medium(medium.vdb, vdb_options(medium), world.space, progress)), world.space};
+            }
+            region.grid = made.grid;
+            bytes += region.grid->bytes();
+            what = "from grids";
+            hash = hash_file(medium.vdb, hash);
+        } else {
+            const double unit = world.space.world_length(1);
+            region.homogeneous = std::make_shared<HomogeneousMedium>(unit * V3d(medium.sigma_t.x, medium.sigma_t.y, medium.sigma_t.z), medium.albedo, medium.g);
+        }
+        parts.push_back({part, true, fmt::format("{}, within {} triangles", what, region.triangles.size()), watch.seconds(), bytes});
         hash = hash_mesh(meshes_[i], hash);
         world.regions.push_back(std::move(region));
     }
+    refuse_overlaps(world);
     return hash;
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
+#include "ingest/support/progress.h"
 #include "ingest/triangle_mesh.h"
 #include "render/scene/part_report.h"
 #include "render/scene/scene_description.h"
 #include "render/scene/world.h"
 
+#include <map>
 #include <vector>
 
 namespace scree {
@@ -18,11 +20,18 @@ public:
     /// Reads what has not been read, and the points that bound it, scene coordinates. Throws InputError.
     std::vector<V3d> read();
     /// Adds the media to `world`, whose space is set, and a report on each. Returns `hash` with their files mixed in.
-    uint64_t build(World& world, std::vector<PartReport>& parts, uint64_t hash) const;
+    uint64_t build(World& world, std::vector<PartReport>& parts, uint64_t hash, const Progress& progress);
 
 private:
+    void refuse_overlaps(const World& world) const;
+
+    struct Made {
+        std::shared_ptr<const GridMedium> grid;
+        RenderSpace space; ///< that it was made for
+    };
     const SceneDescription& scene_;
-    std::vector<TriangleMesh> meshes_; ///< by medium
+    std::map<size_t, Made> grids_; ///< by medium
+    std::vector<TriangleMesh> meshes_; ///< by medium: its surface, or the box of its grids
 };
 
 } // namespace scree

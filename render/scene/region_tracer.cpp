@@ -46,6 +46,41 @@ void crossing_filter(const RTCFilterFunctionNArguments* args)
 
 } // namespace
 
+namespace {
+
+/// Distances within the media from all that a ray may meet there: surfaces, finite lights and the surfaces of media. Grains as well,
+/// but where a medium stands for them: next to a medium that does not, nothing is known to be clear.
+ClearanceField clear_of_everything(const World& world)
+{
+    const bool among_grains = world.has_grains() && !std::ranges::all_of(world.regions, &MediumRegion::instead_of_grains);
+    if (among_grains) return {};
+    std::vector<TriangleView> meshes;
+    Imath::Box3d box;
+    for (const MediumRegion& region : world.regions) {
+        meshes.push_back({region.positions, region.triangles});
+        for (const V3f& p : region.positions) box.extendBy(V3d(p));
+    }
+    for (const Surface& surface : world.surfaces) meshes.push_back({surface.positions, surface.triangles});
+    std::vector<std::vector<V3f>> corners; // of lights; that of a sphere as of a cube around it
+    corners.reserve(world.lights.lights().size());
+    static constexpr std::array<std::array<uint32_t, 3>, 2> rectangle{{{0, 1, 2}, {1, 3, 2}}};
+    static constexpr std::array<std::array<uint32_t, 3>, 12> cube{{{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}}};
+    for (const Light& light : world.lights.lights()) {
+        if (light.kind == LightKind::rectangle) {
+            corners.push_back({V3f(light.corner), V3f(light.corner + light.edge1), V3f(light.corner + light.edge2), V3f(light.corner + light.edge1 + light.edge2)});
+            meshes.push_back({corners.back(), rectangle});
+        } else if (light.kind == LightKind::sphere) {
+            if (box.intersects(Imath::Box3d(light.center - V3d(light.radius), light.center + V3d(light.radius)))) return {}; // a place may be within the cube
+            corners.emplace_back();
+            for (int i = 0; i < 8; ++i) corners.back().emplace_back(light.center + light.radius * V3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+            meshes.push_back({corners.back(), cube});
+        }
+    }
+    return {meshes, box, {}};
+}
+
+} // namespace
+
 struct RegionTracer::Impl {
     std::shared_ptr<const EmbreeDevice> device;
     const World& world;
@@ -91,6 +126,7 @@ RegionTracer::RegionTracer(std::shared_ptr<const EmbreeDevice> device, const Wor
     for (size_t i = 0; i < world.regions.size(); ++i) {
         if (world.regions[i].instead_of_grains) instead_of_grains_ |= RegionSet{1} << i;
     }
+    clearance_ = clear_of_everything(world);
 }
 
 RegionTracer::~RegionTracer() = default;
@@ -145,7 +181,5 @@ RegionSet RegionTracer::after(RegionSet from, const V3d& a, const V3d& b) const
     for (double t = 0; next(a, d, t, length, last, crossing); t = crossing.t, last = &crossing) from = after(from, crossing);
     return from;
 }
-
-double RegionTracer::clearance(const V3d&) const { return 0; }
 
 } // namespace scree

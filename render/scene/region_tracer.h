@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/medium/clearance_field.h"
 #include "render/scene/world.h"
 
 #include <cstdint>
@@ -48,12 +49,13 @@ public:
     /// The regions that stand for grains.
     RegionSet instead_of_grains() const { return instead_of_grains_; }
     /// No surface, light or region's surface is nearer to p than this.
-    double clearance(const V3d& p) const;
+    double clearance(const V3d& p) const { return clearance_.clearance(p); }
 
 private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
     RegionSet instead_of_grains_ = 0;
+    ClearanceField clearance_;
 };
 
 } // namespace scree

@@ -117,6 +117,9 @@ struct IntegratorDescription {
     bool has_proxies() const { return kind == IntegratorKind::ppt; }
     /// Whether a medium stands for some grains.
     bool has_grain_medium() const { return kind == IntegratorKind::vpt || grain_depth; }
+    /// Whether a path can meet grains as they are.
+    bool has_exemplars() const { return kind == IntegratorKind::ppt ? explicit_grains > 0 : kind != IntegratorKind::vpt; }
+    bool needs_gsdfs() const { return has_proxies() || has_grain_medium(); }
     const std::string& name() const { return integrator_names[static_cast<size_t>(kind)]; }
 };
 

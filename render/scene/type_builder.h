@@ -48,7 +48,6 @@ private:
         std::shared_ptr<const Gsdf> gsdf;
         uint64_t hash = 0; ///< of the user's file, or of what the library makes it from; 0: the sphere
     };
-    bool has_exemplars() const { return !integrator_.has_proxies() || integrator_.explicit_grains > 0; }
     std::shared_ptr<const Exemplar> make_exemplar(const GrainTypeDescription& type) const;
     void add_exemplar(const GrainTypeDescription& type, Shape& shape, const TypeRequest& request) const;
     void add_gsdf(const GrainTypeDescription& type, Shape& shape, const TypeRequest& request);

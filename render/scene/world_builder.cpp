@@ -7,6 +7,7 @@
 #include "mixtures/mixture_series.h"
 #include "render/scene/content_hash.h"
 #include "render/scene/fill_builder.h"
+#include "render/scene/grain_medium.h"
 #include "render/scene/light_builder.h"
 #include "render/scene/medium_builder.h"
 #include "render/scene/type_builder.h"
@@ -117,6 +118,7 @@ struct WorldBuilder::Impl {
     void make_surfaces(World& world);
     LightSet make_lights(const World& world);
     std::shared_ptr<const EnvironmentMap> read_map(size_t light);
+    void replace_grains(World& world, const Progress& progress, Precompute precompute);
     std::optional<MixtureSeries> make_mixtures() const;
     ParticleFrame read_dump(size_t frame, const Progress& progress) const;
 };
@@ -291,6 +293,30 @@ std::shared_ptr<const EnvironmentMap> WorldBuilder::Impl::read_map(size_t light)
     return map;
 }
 
+/// Puts a medium in the place of grains where the integrator wants that.
+void WorldBuilder::Impl::replace_grains(World& world, const Progress& progress, Precompute precompute)
+{
+    const IntegratorDescription& integrator = scene.integrator;
+    if (!integrator.has_grain_medium() || !world.has_grains()) {
+        parts.push_back({"medium of the grains", false, world.has_grains() ? "the integrator traces grains everywhere" : "the scene has no grains"});
+        return;
+    }
+    const bool all = integrator.kind == IntegratorKind::vpt;
+    if (precompute == Precompute::never) {
+        parts.push_back({"medium of the grains", true, all ? "to be made, in place of all grains" : fmt::format("to be made, where there is a place {:g} mean radii below every face", *integrator.grain_depth)});
+        return;
+    }
+    const Stopwatch watch;
+    const auto medium = make_grain_medium(world, static_cast<EquivalentForm>(integrator.medium_form), progress);
+    if (!medium) return;
+    if (medium->walk) {
+        parts.push_back({"walk in the packing", true, fmt::format("{} scatterings, transport length to {:.2g} %", medium->walk->scatterings, 100 * medium->walk->transport_length.error / medium->walk->transport_length.value), watch.seconds()});
+    } else {
+        parts.push_back({"walk in the packing", false, "the form of the medium needs none"});
+    }
+    scree::replace_grains(*medium, all ? -1 : *integrator.grain_depth, world, parts, frame_warnings, progress);
+}
+
 LightSet WorldBuilder::Impl::make_lights(const World& world)
 {
     std::vector<Light> lights;
@@ -367,8 +393,9 @@ std::shared_ptr<const World> WorldBuilder::build(size_t frame, const Progress& p
         impl_->parts.push_back({"grains", false, "the scene has none"});
     }
     impl_->make_surfaces(*world);
-    impl_->hash = impl_->media.build(*world, impl_->parts, impl_->hash);
+    impl_->hash = impl_->media.build(*world, impl_->parts, impl_->hash, progress);
     if (impl_->scene.media.empty()) impl_->parts.push_back({"medium", false, "the scene has none"});
+    impl_->replace_grains(*world, progress, precompute);
     world->lights = impl_->make_lights(*world);
     return world;
 }

@@ -80,7 +80,7 @@ void TestScene::build()
         world_.surfaces.push_back(std::move(surface));
     }
     for (const Medium& medium : media_) {
-        MediumRegion region{"medium", {}, medium.mesh.triangles, nullptr, medium.instead_of_grains};
+        MediumRegion region{"medium", {}, medium.mesh.triangles, nullptr, nullptr, medium.instead_of_grains};
         for (const V3d& p : medium.mesh.positions) region.positions.emplace_back(space.point(p));
         region.homogeneous = std::make_shared<HomogeneousMedium>(medium.sigma_t * space.world_length(1), medium.albedo, medium.g);
         world_.regions.push_back(std::move(region));

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "render/medium/continuous_equivalent.h"
+#include "render/medium/packing_sample.h"
+#include "render/scene/part_report.h"
+#include "render/scene/scene_description.h"
+#include "render/scene/world.h"
+
+#include <optional>
+#include <vector>
+
+namespace scree {
+
+/// What stands for a packing, and what it follows from; lengths in render coordinates.
+struct GrainMedium {
+    PackingSample sample;
+    MixtureMoments moments;          ///< of the whole at the sample's pack rate
+    std::optional<PackingWalk> walk; ///< where the form needs one
+    ContinuousEquivalent medium;
+};
+
+/// The equivalent of all a world's grains; every type that it has needs a GSDF. Nothing where there are no grains. Throws InputError, Cancelled.
+std::optional<GrainMedium> make_grain_medium(const World& world, EquivalentForm form, const Progress& progress);
+
+/// Puts a medium in the place of the grains that are deeper than `depth` mean radii below every face of what they fill; negative: of all grains, the
+/// medium beginning one mean radius (by volume) within the faces.
+///
+/// Of a list of grains the medium varies as they do, of a fill as its mixture does. Reports what was built, or why nothing was. Throws
+/// InputError, Cancelled.
+void replace_grains(const GrainMedium& medium, double depth, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks,
+                    const Progress& progress);
+
+} // namespace scree
