@@ -26,7 +26,7 @@ MixtureMoments mixture_moments(std::span<const GrainShare> shares, double fracti
             throw InputError(place, fmt::format("{:g} grains of radius {:g}", share.number, share.radius), "a number of at least 0 and a positive radius");
         if (share.number == 0) continue;
         const GrainMoments moments = share.moments ? *share.moments : grain_moments(*share.gsdf);
-        const GrainAlbedo albedo = grain_albedo(*share.gsdf, share.material, share.radius);
+        const GrainAlbedo albedo = share.albedo ? *share.albedo : grain_albedo(*share.gsdf, share.material, share.radius);
         const double r = share.radius, area = share.number * r * r, met = area * (1 - moments.alpha0), missed = area * moments.alpha0;
         r2 += area;
         r3 += area * r;

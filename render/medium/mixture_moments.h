@@ -2,6 +2,7 @@
 
 #include "render/medium/grain_moments.h"
 
+#include <optional>
 #include <span>
 
 namespace scree {
@@ -13,6 +14,7 @@ struct GrainShare {
     Material material;                     ///< absorption per the caller's unit of length
     double radius = 1;                     ///< of the bounding sphere, in the caller's unit of length
     double number = 1;                     ///< weight by number
+    std::optional<GrainAlbedo> albedo = {}; ///< at this radius, or nothing: then it is taken
 };
 
 /// What light meets from scattering to scattering in a packing, its flights independent of each other; in the caller's unit of length.

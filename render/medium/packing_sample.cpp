@@ -3,6 +3,8 @@
 #include "mixtures/hash.h"
 #include "render/medium/grain_fields.h"
 
+#include <tbb/parallel_for.h>
+
 #include <map>
 
 namespace scree {
@@ -61,12 +63,38 @@ PackingSample sample_packing(const World& world, uint64_t most, const Progress& 
     return world.fill ? sample_fill(*world.fill, most) : sample_list(world.grains, world.types.size(), most, progress);
 }
 
-MomentTable::MomentTable(const std::vector<GrainType>& types)
+MomentTable::MomentTable(const std::vector<GrainType>& types, const PackingSample& sample)
 {
     for (const GrainType& type : types) {
-        types_.push_back({type.gsdf.get(), type.material, {}});
+        types_.push_back({type.gsdf.get(), type.material, {}, 0, 0, {}});
         if (type.gsdf) types_.back().moments = grain_moments(*type.gsdf);
     }
+    std::vector<double> least(types.size(), std::numeric_limits<double>::infinity()), most(types.size(), 0);
+    for (const PackingSample::Grain& grain : sample.grains) {
+        least[grain.type] = std::min(least[grain.type], grain.radius);
+        most[grain.type] = std::max(most[grain.type], grain.radius);
+    }
+    for (size_t i = 0; i < types_.size(); ++i) {
+        Type& type = types_[i];
+        if (!type.gsdf || !(most[i] > 0)) continue;
+        constexpr double margin = 2, finest = 0.1; // shares of two radii reach beyond the sample's; steps of the logarithm
+        type.least = std::log(least[i] / margin);
+        const double range = std::log(most[i] * margin) - type.least;
+        const auto steps = is_black(type.material.absorption) ? 0 : static_cast<size_t>(std::ceil(range / finest));
+        type.step = steps > 0 ? range / static_cast<double>(steps) : 0;
+        type.albedo.resize(steps + 1);
+        tbb::parallel_for(size_t{0}, steps + 1, [&](size_t k) { type.albedo[k] = grain_albedo(*type.gsdf, type.material, std::exp(type.least + static_cast<double>(k) * type.step)); });
+    }
+}
+
+GrainAlbedo MomentTable::albedo_at(const Type& type, double radius)
+{
+    if (type.albedo.size() == 1) return type.albedo[0];
+    const double place = std::clamp((std::log(radius) - type.least) / type.step, 0.0, static_cast<double>(type.albedo.size() - 1));
+    const auto below = std::min(static_cast<size_t>(place), type.albedo.size() - 2);
+    const double part = place - static_cast<double>(below);
+    const GrainAlbedo &a = type.albedo[below], &b = type.albedo[below + 1];
+    return {(1 - part) * a.weight + part * b.weight, (1 - part) * a.weighted_cosine + part * b.weighted_cosine};
 }
 
 void MomentTable::add_shares(uint8_t type, double m2, double m3, double m4, std::vector<GrainShare>& shares) const
@@ -76,14 +104,14 @@ void MomentTable::add_shares(uint8_t type, double m2, double m3, double m4, std:
     const double mean = m3 / m2, deviation = safe_sqrt(m4 / m2 - mean * mean); // of the radius, by cross-section
     constexpr double same = 1e-3; // of the mean: as one radius
     if (deviation < same * mean) {
-        shares.push_back({kind.gsdf, &kind.moments, kind.material, mean, m2 / (mean * mean)});
+        shares.push_back({kind.gsdf, &kind.moments, kind.material, mean, m2 / (mean * mean), albedo_at(kind, mean)});
         return;
     }
     // By cross-section u parts of 1 at mean - deviation sqrt((1 - u) / u), the rest above: any u keeps mean and deviation; the radii stay above 0.
     const double u = std::max(0.5, 1 / (1 + 0.25 * mean * mean / (deviation * deviation)));
     const double small = mean - deviation * std::sqrt((1 - u) / u), large = mean + deviation * std::sqrt(u / (1 - u));
-    shares.push_back({kind.gsdf, &kind.moments, kind.material, small, u * m2 / (small * small)});
-    shares.push_back({kind.gsdf, &kind.moments, kind.material, large, (1 - u) * m2 / (large * large)});
+    shares.push_back({kind.gsdf, &kind.moments, kind.material, small, u * m2 / (small * small), albedo_at(kind, small)});
+    shares.push_back({kind.gsdf, &kind.moments, kind.material, large, (1 - u) * m2 / (large * large), albedo_at(kind, large)});
 }
 
 std::vector<GrainShare> shares_of(const PackingSample& sample, const MomentTable& table)

@@ -26,10 +26,10 @@ struct PackingSample {
 /// At most `most` grains, every so many of a list. Empty where there are none.
 PackingSample sample_packing(const World& world, uint64_t most, const Progress& progress);
 
-/// The moments of types that are met again and again.
+/// The moments of types that are met again and again, with their albedo between some radii of the sample's range.
 class MomentTable {
 public:
-    explicit MomentTable(const std::vector<GrainType>& types);
+    MomentTable(const std::vector<GrainType>& types, const PackingSample& sample);
     /// Grains of a type, their radii as one or two that have the same sums of r^2, r^3 and r^4.
     void add_shares(uint8_t type, double m2, double m3, double m4, std::vector<GrainShare>& shares) const;
 
@@ -38,7 +38,11 @@ private:
         const Gsdf* gsdf = nullptr;
         Material material;
         GrainMoments moments;
+        double least = 0, step = 0;       ///< logarithms of radii
+        std::vector<GrainAlbedo> albedo;  ///< at exp(least + i step); one where it is the same for all
     };
+    static GrainAlbedo albedo_at(const Type& type, double radius);
+
     std::vector<Type> types_;
 };
 

@@ -187,7 +187,7 @@ std::optional<GrainMedium> make_grain_medium(const World& world, EquivalentForm 
     GrainMedium result;
     result.sample = sample_packing(world, sampled, progress);
     if (result.sample.grains.empty()) return std::nullopt;
-    const MomentTable table(world.types);
+    const MomentTable table(world.types, result.sample);
     constexpr double loosest = 1e-6, densest = 0.9; // heaps of a few grains, and of grains that overlap
     result.sample.pack_rate = std::clamp(result.sample.pack_rate, loosest, densest);
     result.moments = mixture_moments(shares_of(result.sample, table), result.sample.pack_rate);
@@ -216,7 +216,7 @@ void replace_grains(const GrainMedium& medium, double depth, World& world, std::
     const bool all = depth < 0;
     std::optional<RegionSurface> surface = surface_below(world, all ? medium.sample.volume_weighted_radius() : depth * medium.sample.mean_radius(), progress);
     if (surface && !surface->triangles.empty()) {
-        const MomentTable table(world.types);
+        const MomentTable table(world.types, medium.sample);
         const LocalMedia media(medium, table);
         MediumRegion region;
         region.name = part;
