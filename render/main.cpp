@@ -3,6 +3,7 @@
 #include "ingest/support/error.h"
 #include "mixtures/mixture_command.h"
 #include "packing/pack_command.h"
+#include "render/medium_command.h"
 #include "render/grains/grains_command.h"
 #include "render/render_command.h"
 
@@ -16,6 +17,7 @@ int main(int argc, char** argv)
     app.require_subcommand(1);
     scree::add_render_command(app);
     scree::add_info_command(app);
+    scree::add_medium_option(app);
     scree::add_convert_command(app);
     scree::add_mixture_command(app);
     scree::add_pack_command(app);

@@ -74,7 +74,8 @@ Figures shine(const Slab& slab, double thickness, uint32_t paths, double cosine,
         Sampler sampler(seed, p, 0, 0);
         const V3d d(std::sqrt(1 - cosine * cosine), 0, -cosine);
         const double u = sampler.next(), v = sampler.next();
-        const V3d target(thickness * (2 * u - 1), thickness * (2 * v - 1), 0.5 * thickness); // many places of the packing
+        const double reach = 0.5 * wide * thickness; // many places: the packing is not to be seen, but packings
+        const V3d target(reach * (2 * u - 1), reach * (2 * v - 1), 0.5 * thickness);
         PathOptions options;
         options.explicit_grains = explicit_grains;
         const PathResult result = trace_path(slab.world, *slab.tracer, target - 2 / cosine * d, d, sampler, options);

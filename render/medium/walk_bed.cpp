@@ -3,6 +3,8 @@
 #include "mixtures/hash.h"
 #include "packing/tile_generator.h"
 
+#include <numeric>
+
 namespace scree {
 
 namespace {
@@ -64,7 +66,12 @@ PackingWalk walk_like(const World& world, const PackingSample& sample, const Pro
         tile = std::shared_ptr<const PackingTile>(world.fill, &world.fill->fill().tile());
     } else {
         tile = pack(sample, grains, progress);
-        for (size_t row = 0; row < grains.size(); ++row) grains[row].row = row;
+        // Packing has put the rows into an order of its own: the smallest grain is the smallest sphere.
+        std::vector<uint64_t> rows(tile->rows());
+        std::iota(rows.begin(), rows.end(), 0);
+        std::ranges::stable_sort(rows, {}, [&](uint64_t row) { return tile->radius[row]; });
+        std::ranges::stable_sort(grains, {}, &PackingSample::Grain::radius);
+        for (size_t i = 0; i < grains.size(); ++i) grains[i].row = rows[i];
     }
     std::vector<std::vector<uint8_t>> types(tile->rows());
     for (const PackingSample::Grain& grain : grains) types[grain.row].push_back(grain.type);
