@@ -78,7 +78,7 @@ PackingWalk walk_like(const World& world, const PackingSample& sample, const Pro
 
     // Mean radii as the unit of length, whatever it is in the world.
     const double unit = world.fill ? world.fill->fill().tile().mean_radius() * world.fill->fill().scale() * world.space.length(1) : sample.mean_radius();
-    constexpr double half = 3000; // no walk comes near the faces, and a larger cube costs no more
+    const double half = 2000 / std::min(sample.pack_rate, 1.0); // no walk comes near the faces, and a larger cube costs no more
     World bed;
     bed.types = world.types;
     for (GrainType& type : bed.types) {

@@ -2,6 +2,7 @@
 // against themselves where the answer does not depend on how light is found or on the unit of length.
 
 #include "render/integrators/path_tracer.h"
+#include "render/medium/grid_medium_build.h"
 #include "render/warp.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
@@ -30,8 +31,8 @@ struct ReflectedAndPassed {
     Estimate up[3], down[3]; ///< by channel
 };
 
-/// What `paths` rays from above bring, by the side they leave to. cosine: of incidence; below 0: as of diffuse light.
-ReflectedAndPassed shine(const TestScene& scene, uint32_t paths, double cosine, uint64_t seed)
+/// What rays bring that come down from `distance` to (0, 0, 0), by the side they leave to. cosine: of incidence; below 0: as of diffuse light.
+ReflectedAndPassed shine(const World& world, const Tracer& tracer, double distance, uint32_t paths, double cosine, uint64_t seed)
 {
     struct Value {
         C3f radiance;
@@ -43,9 +44,8 @@ ReflectedAndPassed shine(const TestScene& scene, uint32_t paths, double cosine, 
         Sampler sampler(seed, p, 0, 0);
         const double u1 = sampler.next(), u2 = sampler.next();
         V3d d = cosine < 0 ? -sample_cosine_hemisphere(u1, u2) : V3d(std::sqrt(1 - cosine * cosine), 0, -cosine);
-        std::vector<PathVertex> trail;
-        const PathResult result = trace_path(scene.world(), scene.tracer(), -d, d, sampler, {}, &trail);
-        values[p] = {result.radiance, trail.back().d.z > 0};
+        const PathResult result = trace_path(world, tracer, -distance * d, d, sampler);
+        values[p] = {result.radiance, result.last_direction.z > 0};
     });
     ReflectedAndPassed sum;
     for (const Value& value : values) {
@@ -55,6 +55,11 @@ ReflectedAndPassed shine(const TestScene& scene, uint32_t paths, double cosine, 
         }
     }
     return sum;
+}
+
+ReflectedAndPassed shine(const TestScene& scene, uint32_t paths, double cosine, uint64_t seed)
+{
+    return shine(scene.world(), scene.tracer(), 1, paths, cosine, seed);
 }
 
 void expect_truth(const Estimate& estimate, double truth, const std::string& what)
@@ -69,7 +74,7 @@ constexpr uint32_t paths = 400000;
 TEST(HalfSpace, ReflectsWhatTheoryKnows)
 {
     const auto shallow = slab(150, V3d(1), C3f(0.9f), 0), deep = slab(500, V3d(1), C3f(0.99f), 0);
-    expect_truth(shine(*shallow, paths, 1, 1).up[0], 0.41495, "half-space 0.9, normal");
+    expect_truth(shine(*shallow, 4 * paths, 1, 1).up[0], 0.41495, "half-space 0.9, normal");
     expect_truth(shine(*shallow, paths, -1, 2).up[0], 0.47802, "half-space 0.9, diffuse");
     expect_truth(shine(*deep, paths / 4, 1, 3).up[0], 0.75272, "half-space 0.99, normal");
     expect_truth(shine(*deep, paths / 4, -1, 4).up[0], 0.79456, "half-space 0.99, diffuse");
@@ -77,10 +82,10 @@ TEST(HalfSpace, ReflectsWhatTheoryKnows)
 
 TEST(Slab, ReflectsAndPassesWhatTheoryKnows)
 {
-    const ReflectedAndPassed thin = shine(*slab(2, V3d(1), C3f(0.9f), 0.75), paths, 1, 5);
+    const ReflectedAndPassed thin = shine(*slab(2, V3d(1), C3f(0.9f), 0.75), 10 * paths, 1, 5);
     expect_truth(thin.up[0], 0.09739, "slab g 0.75, albedo 0.9, tau 2: R");
     expect_truth(thin.down[0], 0.66096, "slab g 0.75, albedo 0.9, tau 2: T");
-    const ReflectedAndPassed thick = shine(*slab(10, V3d(1), C3f(1), 0), paths, 1, 6);
+    const ReflectedAndPassed thick = shine(*slab(10, V3d(1), C3f(1), 0), 2 * paths, 1, 6);
     expect_truth(thick.up[0], 0.85300, "slab g 0, albedo 1, tau 10: R");
     expect_truth(thick.down[0], 0.14700, "slab g 0, albedo 1, tau 10: T");
 }
@@ -93,6 +98,46 @@ TEST(Slab, DoesNotKnowTheUnitOfLength)
     EXPECT_EQ(one.up[0].mean(), large.up[0].mean());
     EXPECT_EQ(one.down[0].mean(), large.down[0].mean());
     for (const double unit : {1e-6, 1e6}) expect_truth(shine(*slab(2 * unit, V3d(1 / unit), C3f(0.9f), 0.75), paths, 1, 8).down[0], 0.66096, "slab in another unit: T");
+}
+
+/// The slab as a grid of equal voxels in its box; unit: of length.
+struct GridSlab {
+    World world;
+    std::unique_ptr<Tracer> tracer;
+
+    GridSlab(double depth, double sigma_t, float albedo, double g, double unit)
+    {
+        openvdb::initialize();
+        const int across = 64, down = 8; // voxels; wide ones
+        const double wide = 300 * depth;
+        const auto grid = openvdb::FloatGrid::create(0);
+        grid->fill(openvdb::CoordBBox({-across, -across, -down}, {across, across, down}), static_cast<float>(sigma_t / unit));
+        MediumGrids grids{grid, nullptr, nullptr, {}, "slab"};
+        grids.to_scene[0][0] = grids.to_scene[1][1] = unit * wide / across;
+        grids.to_scene[2][2] = unit * depth / down;
+        MediumRegion region{"slab", {}, cube().triangles, nullptr, nullptr, false};
+        GridMediumOptions options;
+        options.albedo = C3f(albedo);
+        options.g = g;
+        region.grid = std::make_shared<GridMedium>(make_grid_medium(grids, options, {}, {}));
+        // Cut out of its middle, where interpolation does not meet the grid's faces.
+        for (const V3d& p : box(unit * V3d(-0.5 * wide, -0.5 * wide, -0.5 * depth), unit * V3d(0.5 * wide, 0.5 * wide, 0.5 * depth)).positions) region.positions.emplace_back(p);
+        world.regions.push_back(std::move(region));
+        world.lights = LightSet({Light{}}, 1);
+        tracer = std::make_unique<Tracer>(std::make_shared<EmbreeDevice>(), world);
+    }
+};
+
+TEST(Slab, IsTheSameAsAGrid)
+{
+    for (const double unit : {1.0, 1e-6, 1e6}) {
+        const GridSlab slab(2, 1, 0.9f, 0.75, unit);
+        const ReflectedAndPassed sum = shine(slab.world, *slab.tracer, 2 * unit, paths, 1, 21);
+        expect_truth(sum.up[0], 0.09739, "grid, g 0.75, albedo 0.9, tau 2: R");
+        expect_truth(sum.down[0], 0.66096, "grid, g 0.75, albedo 0.9, tau 2: T");
+    }
+    const GridSlab thick(10, 1, 1, 0, 1);
+    expect_truth(shine(thick.world, *thick.tracer, 10, paths / 4, 1, 22).down[0], 0.14700, "grid, g 0, albedo 1, tau 10: T");
 }
 
 TEST(Slab, ChannelsThatSeeItDifferentlyAreEachRight)
