@@ -70,8 +70,9 @@ std::string plan_text(const WorldBuilder& builder, const World& world, size_t fr
         const bool wanted = std::find(scene.film.aov.begin(), scene.film.aov.end(), static_cast<Aov>(i)) != scene.film.aov.end();
         text += part_text({"channels " + aov_names[i], wanted, wanted ? "asked for" : "not asked for"});
     }
-    text += fmt::format("  would trace {}{} grains of {} types among {} surfaces under {} lights\n", world.fill ? "about " : "", world.grain_count(), world.types.size(),
-                        world.surfaces.size(), world.lights.lights().size());
+    const bool none_traced = scene.integrator.kind == IntegratorKind::vpt && world.has_grains();
+    text += fmt::format("  would trace {}{}{} grains of {} types among {} surfaces and {} media under {} lights\n", none_traced ? "a medium in place of " : "", world.fill ? "about " : "",
+                        world.grain_count(), world.types.size(), world.surfaces.size(), world.regions.size(), world.lights.lights().size());
     return text;
 }
 
@@ -83,6 +84,7 @@ std::string statistics_text(const FrameReport& report)
     text += fmt::format("  set up in {:.2f} s, rendered in {:.2f} s: {} samples a pixel, {} paths\n", report.setup_seconds, s.seconds, s.spp, s.paths);
     text += fmt::format("  {} segments ({:.3f} million a second), {} shadow rays, {:.2f} segments a path, longest {}\n", s.segments,
                         1e-6 * per_second(s.segments, s.seconds), s.shadow_rays, static_cast<double>(s.segments) / static_cast<double>(std::max<uint64_t>(1, s.paths)), s.longest);
+    if (s.events > 0) text += fmt::format("  {} scatterings in media ({:.3f} million a second)\n", s.events, 1e-6 * per_second(s.events, s.seconds));
     text += fmt::format("  {} samples not finite, {} rays lost between triangles, peak memory {}\n", s.non_finite, s.leaks, bytes_text(peak_memory()));
     return text;
 }
@@ -99,7 +101,7 @@ std::string statistics_json(const std::vector<FrameReport>& reports, const std::
         }
         frames.push_back({{"frame", report.frame}, {"particles", report.name}, {"grains", report.grains}, {"parts", parts},
                           {"setup_seconds", report.setup_seconds}, {"render_seconds", s.seconds}, {"spp", s.spp}, {"paths", s.paths},
-                          {"segments", s.segments}, {"shadow_rays", s.shadow_rays}, {"longest_path", s.longest},
+                          {"segments", s.segments}, {"shadow_rays", s.shadow_rays}, {"medium_events", s.events}, {"longest_path", s.longest},
                           {"segments_per_second", per_second(s.segments, s.seconds)}, {"non_finite", s.non_finite}, {"leaks", s.leaks},
                           {"cut", s.cut}, {"stopped", s.stopped}, {"cancelled", s.cancelled}, {"timed_out", s.timed_out}});
     }

@@ -32,7 +32,7 @@ json describe(const V3d& sigma_t, const V3d& albedo, double g, double unit)
 json describe_grains(const World& world, const Progress& progress)
 {
     const double unit = world.space.length(1), back = 1 / unit;
-    const auto walked = make_grain_medium(world, EquivalentForm::walk_decay, progress);
+    const auto walked = make_grain_medium(world, EquivalentForm::decay, progress);
     if (!walked) return nullptr;
     const MixtureMoments& moments = walked->moments;
     const PackingWalk& walk = *walked->walk;

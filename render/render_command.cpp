@@ -54,7 +54,7 @@ FrameRange parse_frames(const std::string& text)
 }
 
 struct Arguments {
-    std::string integrator, accuracy, size, crop, pixels, frames, debug, strategy = "both";
+    std::string integrator, accuracy, medium_form, size, crop, pixels, frames, debug, strategy = "both";
     std::vector<std::string> overrides, aov;
     RenderJob job;
 };
@@ -98,6 +98,7 @@ void take_over(Arguments& a)
     const auto place_of = [](const std::vector<std::string>& names, const std::string& name) { return std::find(names.begin(), names.end(), name) - names.begin(); };
     if (!a.integrator.empty()) job.integrator = static_cast<IntegratorKind>(place_of(integrator_names, a.integrator));
     if (!a.accuracy.empty()) job.accuracy = static_cast<Accuracy>(place_of(accuracy_names, a.accuracy));
+    if (!a.medium_form.empty()) job.medium_form = static_cast<EquivalentForm>(place_of(medium_form_names, a.medium_form));
     const std::vector<std::string> strategies{"both", "lights", "scattering"};
     job.options.path.direct_light = static_cast<DirectLight>(place_of(strategies, a.strategy));
 }
@@ -118,6 +119,7 @@ void add_render_command(CLI::App& app)
     command->add_option("--integrator", a.integrator, "auto, ept (grains as they are), ppt (grains averaged over rotations, faster) or vpt (a medium in place of grains)")->check(CLI::IsMember(integrator_names));
     command->add_option("--accuracy", a.accuracy, "How far approximations may go: reference, high, standard or draft")->check(CLI::IsMember(accuracy_names));
     command->add_option("--grain-depth", job.grain_depth, "With ept and ppt: how many mean radii below every face a medium stands for the grains (default: nowhere)")->check(CLI::NonNegativeNumber);
+    command->add_option("--medium-form", a.medium_form, "How the medium of the grains is made: plain, formula, walk or decay (default)")->check(CLI::IsMember(medium_form_names));
     command->add_option("--explicit-grains", job.explicit_grains, "With ppt: how many grains of a path are traced as they are (default 0)");
     command->add_option("--frames", a.frames, "Frames to render, counted from 0: A, A:B or A:B:STEP, B included (default: the first)");
     command->add_option("--size", a.size, "Size of the picture, WIDTHxHEIGHT");

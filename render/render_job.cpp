@@ -83,12 +83,16 @@ PictureMetadata make_metadata(const RenderJob& job, const WorldBuilder& builder,
     PictureMetadata metadata;
     metadata.texts = {{"software", "Scree"}, {"version", SCREE_VERSION}, {"integrator", integrator_of(builder.scene())},
                       {"sceneHash", fmt::format("{:016x}", builder.scene_hash())}, {"seed", std::to_string(job.options.seed)}};
+    metadata.numbers = {{"spp", statistics.spp}, {"renderTime", statistics.seconds}, {"frame", static_cast<double>(frame)},
+                        {"nonFiniteSamples", static_cast<double>(statistics.non_finite)}};
+    if (const IntegratorDescription& how = builder.scene().integrator; how.has_grain_medium()) {
+        metadata.texts["mediumForm"] = medium_form_names[static_cast<size_t>(how.medium_form)];
+        if (how.kind != IntegratorKind::vpt) metadata.numbers["grainDepth"] = *how.grain_depth;
+    }
     if (builder.scene().assembly && !builder.frame_name(frame).empty()) metadata.texts["particles"] = builder.frame_name(frame);
     std::vector<std::string> types;
     for (size_t i = 0; i < world.types.size(); ++i) types.push_back(fmt::format("{}={}", i, world.types[i].name));
     if (!types.empty()) metadata.texts["grainTypes"] = fmt::format("{}", fmt::join(types, ","));
-    metadata.numbers = {{"spp", statistics.spp}, {"renderTime", statistics.seconds}, {"frame", static_cast<double>(frame)},
-                        {"nonFiniteSamples", static_cast<double>(statistics.non_finite)}};
     const V3d o = world.space.origin;
     const double scale = world.space.length(1);
     const Imath::M44d to_render(scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, scale, 0, -o.x * scale, -o.y * scale, -o.z * scale, 1);
@@ -207,7 +211,7 @@ private:
         report.parts.push_back({"acceleration structure", true, "Embree", std::chrono::duration<double>(built - build_start).count(),
                                 static_cast<uint64_t>(builder_.device()->bytes() - before)});
         report.setup_seconds = std::chrono::duration<double>(built - start).count();
-        report.grains = world->grain_count();
+        report.grains = world->grain_count() + world->replaced_grains;
 
         const Camera camera = make_camera(scene_, world->space);
         RenderOptions options = job_.options;

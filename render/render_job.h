@@ -25,7 +25,7 @@ struct RenderJob {
     std::optional<Accuracy> accuracy;
     std::optional<uint32_t> explicit_grains;
     std::optional<double> grain_depth;
-    std::optional<MediumForm> medium_form;
+    std::optional<EquivalentForm> medium_form;
     std::optional<FrameRange> frames;
     std::optional<std::pair<int, int>> size;
     std::optional<std::array<double, 4>> crop;    ///< x0, x1, y0, y1 in 0..1

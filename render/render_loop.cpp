@@ -26,6 +26,7 @@ void add(RenderStatistics& total, const RenderStatistics& part)
     total.paths += part.paths;
     total.segments += part.segments;
     total.shadow_rays += part.shadow_rays;
+    total.events += part.events;
     total.non_finite += part.non_finite;
     total.leaks += part.leaks;
     total.cut += part.cut;
@@ -54,6 +55,7 @@ bool render_tile(const World& world, const Tracer& tracer, const Camera& camera,
                 ++part.paths;
                 part.segments += path.segments;
                 part.shadow_rays += path.shadow_rays;
+                part.events += path.events;
                 part.leaks += path.leaks;
                 part.cut += path.cut;
                 part.longest = std::max(part.longest, path.segments);

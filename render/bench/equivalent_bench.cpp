@@ -45,7 +45,7 @@ int main(int argc, char** argv)
             options.safe_radius = 0.95 * bed.half();
             const PackingWalk walk = walk_packing(bed.world(), bed.tracer(), options);
             const auto plain = continuous_equivalent(mixture, EquivalentForm::plain), formula = continuous_equivalent(mixture, EquivalentForm::formula);
-            const auto walked = continuous_equivalent(mixture, EquivalentForm::walk, &walk), decay = continuous_equivalent(mixture, EquivalentForm::walk_decay, &walk);
+            const auto walked = continuous_equivalent(mixture, EquivalentForm::walk, &walk), decay = continuous_equivalent(mixture, EquivalentForm::decay, &walk);
             const auto per_cent = [](const Measured& m) { return m.value > 0 ? 100 * m.error / m.value : 0; };
             const PackingDecay& deep = walk.decay[0];
             fmt::print("{:10} {:4.1f} {:7.4f} {:7.4f} | {:8.4f} {:8.4f} {:7.4f} {:7.4f} | {:8.4f} {:8.4f} {:5.2f} {:8.4f} {:8.4f} {:5.2f} {:7.4f} {:7.4f} | {:7.5f} {:8.5f} {:8.5f} {:6.2f} {:8.5f} | {:8.5f} {:8.5f} {:8.5f} | {:6.3f} {:5} {:5.2f} {}\n",

@@ -2,7 +2,11 @@
 // usage: medium_bench [--quick]
 
 #include "mixtures/noise.h"
+#include "render/integrators/path_tracer.h"
 #include "render/medium/grid_medium_build.h"
+#include "render/medium/phase_function.h"
+#include "tests/builders/scenes.h"
+#include "tests/builders/shapes.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -63,13 +67,9 @@ Ray draw_ray(Sampler& sampler)
     return {o, (target - o).normalized()};
 }
 
-/// Henyey and Greenstein's phase function, 1941.
 V3d scatter(const V3d& d, double g, Sampler& sampler)
 {
-    const double u = sampler.next(), phi = 2 * pi * sampler.next();
-    const double s = (1 - g * g) / (1 - g + 2 * g * u);
-    const double cosine = g == 0 ? 1 - 2 * u : std::min(1.0, std::max(-1.0, (1 + g * g - s * s) / (2 * g)));
-    const double sine = safe_sqrt(1 - cosine * cosine);
+    const double cosine = sample_henyey_greenstein(g, sampler.next()), phi = 2 * pi * sampler.next(), sine = safe_sqrt(1 - cosine * cosine);
     return Frame(d).to_world({sine * std::cos(phi), sine * std::sin(phi), cosine}).normalized();
 }
 
@@ -112,8 +112,48 @@ double transmittances(const GridMedium& medium, uint32_t rays, double& mean)
     return rays / (busy_seconds() - start);
 }
 
+/// Paths of the renderer from all around towards the middle; their events a second.
+Rate trace(const World& world, const Tracer& tracer, double distance, uint32_t paths)
+{
+    const double start = busy_seconds();
+    uint64_t events = 0;
+    for (uint32_t i = 0; i < paths; ++i) {
+        Sampler sampler(3, i, 0, 0);
+        Ray ray = draw_ray(sampler);
+        events += trace_path(world, tracer, 0.5 * distance * ray.o, ray.d, sampler).events;
+    }
+    return {static_cast<double>(events) / (busy_seconds() - start), static_cast<double>(events) / paths};
+}
+
+/// A sphere of optical radius 50.
+void run_sphere(bool quick)
+{
+    fmt::print("A sphere of optical radius 50 and 20,480 triangles, whole paths; one thread. Millions of events a second.\n\n{:>6} {:>8} {:>14} {:>10} {:>12} {:>10}\n", "g", "albedo", "constant light",
+               "a path", "sun and sky", "a path");
+    for (const auto& [g, albedo] : {std::pair{0.0, 1.0f}, {0.7, 1.0f}, {0.7, 0.99f}}) {
+        TestScene constant, sunny;
+        for (TestScene* scene : {&constant, &sunny}) {
+            scene->add_medium(icosphere(5), V3d(50), C3f(albedo), g);
+            scene->add_constant_light(0.3f);
+        }
+        Light sun;
+        sun.kind = LightKind::distant;
+        sun.direction = V3d(0.5, 0.3, 0.8).normalized();
+        sun.one_minus_cos = 1e-5;
+        sun.radiance = C3f(4e4f);
+        sunny.add_light(sun);
+        constant.build();
+        sunny.build();
+        const uint32_t paths = quick ? 2000 : 20000;
+        const Rate plain = trace(constant.world(), constant.tracer(), 3, paths), lit = trace(sunny.world(), sunny.tracer(), 3, paths);
+        fmt::print("{:6} {:8} {:14.2f} {:10.1f} {:12.2f} {:10.1f}\n", g, albedo, plain.events / 1e6, plain.per_path, lit.events / 1e6, lit.per_path);
+    }
+    fmt::print("\n");
+}
+
 void run(bool quick)
 {
+    run_sphere(quick);
     const openvdb::FloatGrid::Ptr cloud = make_cloud();
     fmt::print("A cloud of {}^3 voxels, {:.0f} % of them not empty, in a cube of side 2; one thread, best of {} runs.\n"
                "Lossless walks until they leave; transmittances from outside to outside. Millions a second.\n\n",

@@ -141,7 +141,7 @@ int main(int argc, char** argv)
             options.safe_radius = 0.95 * bed.half();
             const PackingWalk walk = walk_packing(bed.world(), bed.tracer(), options);
             std::vector<ContinuousEquivalent> forms;
-            for (const EquivalentForm form : {EquivalentForm::plain, EquivalentForm::formula, EquivalentForm::walk, EquivalentForm::walk_decay}) {
+            for (const EquivalentForm form : {EquivalentForm::plain, EquivalentForm::formula, EquivalentForm::walk, EquivalentForm::decay}) {
                 forms.push_back(continuous_equivalent(mixture, form, &walk));
             }
             fmt::print("{}, f {}, {} radii thick; walk {:.2f} s: sigma_t {:.4f} g {:.4f} albedo {:.5f} -> {:.5f}; plain {:.4f} {:.4f}\n", type.name, f, thickness, walk.seconds,

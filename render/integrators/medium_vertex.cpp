@@ -48,16 +48,16 @@ MediumEvent Path::medium_event(double t0, double t1)
     return first;
 }
 
-C3f Path::media_transmittance(RegionSet regions, const V3d& o, const V3d& d, double length)
+C3f Path::media_transmittance(RegionSet regions, const V3d& o, const V3d& d, double t0, double t1)
 {
     C3f passed(1);
-    for_each_region(regions, [&](uint32_t region) { passed *= world_.regions[region].transmittance(o, d, 0, length, sampler_); });
+    for_each_region(regions, [&](uint32_t region) { passed *= world_.regions[region].transmittance(o, d, t0, t1, sampler_); });
     return passed;
 }
 
 bool Path::step_through_media(Hit& met)
 {
-    if (regions_ != 0 && !emerging_) { // far from everything there is nothing to meet but the medium
+    if (regions_ != 0) { // far from everything there is nothing to meet but the medium
         const double clear = media_->clearance(o_);
         if (clear > passed_) {
             if (const MediumEvent event = medium_event(passed_, clear); event.scattered) return handle_medium(event, met);
@@ -67,11 +67,13 @@ bool Path::step_through_media(Hit& met)
     ++result_.segments;
     Crossing crossing;
     const bool crosses = media_->next(o_, d_, passed_, infinite, crossed_ ? &crossing_ : nullptr, crossing);
-    const Hit hit = tracer_.intersect(o_, d_, from_, emerging_ ? detail() : detail(regions_), beyond_);
+    const RegionSet mended = RegionTracer::before(regions_, crosses ? &crossing : nullptr);
+    if (!crosses && regions_ != 0) ++result_.leaks; // lost through the surface of a medium
+    regions_ = mended;
+    const Hit hit = tracer_.intersect(o_, d_, from_, detail(regions_), beyond_);
     const double next = hit.place.kind == HitKind::none ? infinite : hit.t;
-    const double end = crosses ? std::min(crossing.t, next) : next;
-    if (regions_ != 0 && !emerging_) {
-        if (const MediumEvent event = medium_event(passed_, end); event.scattered) return handle_medium(event, met);
+    if (regions_ != 0) {
+        if (const MediumEvent event = medium_event(passed_, std::min(crossing.t, next)); event.scattered) return handle_medium(event, met);
     }
     if (crosses && crossing.t <= next) {
         met.place.kind = HitKind::medium;
@@ -81,50 +83,43 @@ bool Path::step_through_media(Hit& met)
         handle_crossing(crossing);
         return true;
     }
-    if (hit.place.kind == HitKind::none && regions_ != 0) { // lost through the surface of a medium
-        ++result_.leaks;
-        regions_ = 0;
-        return true;
-    }
     met = hit;
     return handle(hit);
 }
 
 void Path::handle_crossing(const Crossing& crossing)
 {
-    const RegionSet before = regions_;
+    const bool among_grains = detail(regions_) != GrainDetail::none;
     regions_ = RegionTracer::after(regions_, crossing);
     crossing_ = crossing;
     crossed_ = true;
     passed_ = crossing.t;
-    if (emerging_ || detail(before) != GrainDetail::none || detail(regions_) == GrainDetail::none) {
-        emerging_ = false;
-        return;
-    }
-    // Among grains again: the ray has not been there before, and starts anew.
-    const V3d place = o_ + crossing.t * d_;
+    if (among_grains || detail(regions_) == GrainDetail::none) return;
+    // Among grains again: the ray has not been there before, and starts anew in the void between them.
     attenuate(surrounding_, crossing.t);
     moved_ += crossing.t;
-    start_ray(void_point(place, crossing), d_, {});
+    start_ray(void_point(o_ + crossing.t * d_, d_, crossing), d_, {});
+    crossed_ = true; // it may be on the triangle still
     last_.elsewhere = true;
 }
 
-V3d Path::void_point(const V3d& place, const Crossing& crossing)
+V3d Path::void_point(const V3d& place, const V3d& d, const Crossing& crossing)
 {
     constexpr int tries = 32; // each finds the void with its part of the volume
     constexpr double reach = 3;
     V3d point = place;
-    Hit around = tracer_.grain_around(point, d_);
+    Hit around = tracer_.grain_around(point, d);
     if (around.place.kind == HitKind::none) return point;
     const Frame frame(media_->normal(crossing));
     const double radius = reach * world_.sphere(around.place.index).radius;
-    for (int i = 0; i < tries && around.place.kind != HitKind::none; ++i) {
+    for (int i = 0; i < tries; ++i) {
         const double u = sampler_.next(), v = sampler_.next();
         const V2d offset = radius * sample_disk(u, v);
         point = place + offset.x * frame.s + offset.y * frame.t;
-        around = tracer_.grain_around(point, d_);
+        if (tracer_.surface_between(place, point).place.kind != HitKind::none) continue;
+        if (tracer_.grain_around(point, d).place.kind == HitKind::none) return point;
     }
-    return point;
+    return place;
 }
 
 bool Path::handle_medium(const MediumEvent& event, Hit& met)
@@ -182,27 +177,36 @@ C3f Path::passing_media(V3d o, const V3d& d, double distance, Place from, uint32
         return false;
     };
     Crossing crossing, last;
-    for (bool crossed = false;; crossed = true) {
-        last = crossing;
-        const bool crosses = media_->next(o, d, 0, distance, crossed ? &last : nullptr, crossing);
-        const double length = crosses ? crossing.t : distance;
+    bool crossed = false;
+    double t = 0, looked = 0; // along the ray: how far media, and what stands in the way, have been taken into account
+    for (;;) {
+        const bool crosses = media_->next(o, d, t, distance, crossed ? &last : nullptr, crossing);
+        if (crosses || distance == infinite) regions = RegionTracer::before(regions, crosses ? &crossing : nullptr);
+        const double end = crosses ? crossing.t : distance;
         if (regions != 0) {
-            passed *= media_transmittance(regions, o, d, length);
+            passed *= media_transmittance(regions, o, d, t, end);
             if (is_lost()) return C3f(0);
         }
         const GrainDetail grains = detail(regions);
-        ++result_.shadow_rays;
-        const double visibility = tracer_.visibility(o, d, length, from, light, grains);
-        if (visibility == 0) return C3f(0);
-        passed *= static_cast<float>(visibility);
+        if (crosses) regions = RegionTracer::after(regions, crossing);
+        // One look as far as the grains are taken in one way: nothing that coincides with a medium's surface is passed by.
+        if (!crosses || detail(regions) != grains) {
+            ++result_.shadow_rays;
+            const double visibility = tracer_.visibility(o + looked * d, d, end - looked, looked > 0 ? Place{} : from, light, grains);
+            if (visibility == 0) return C3f(0);
+            passed *= static_cast<float>(visibility);
+            looked = end;
+        }
         if (!crosses) return passed;
-        regions = RegionTracer::after(regions, crossing);
-        o += length * d;
-        distance -= length;
-        from = {};
-        if (grains == GrainDetail::none && detail(regions) != GrainDetail::none) {
-            o = void_point(o, crossing);
-            crossing.region = RegionTracer::most_regions; // another place: any triangle may be met
+        t = crossing.t;
+        last = crossing;
+        crossed = true;
+        if (grains == GrainDetail::none && detail(regions) != GrainDetail::none) { // as in handle_crossing
+            o = void_point(o + t * d, d, crossing);
+            distance = distance == infinite ? infinite : world_.lights.meet(light, o, d);
+            if (!(distance > 0) || (world_.lights.lights()[light].is_infinite() != (distance == infinite))) return C3f(0);
+            t = looked = 0;
+            from = {};
         }
     }
 }

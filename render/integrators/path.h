@@ -44,12 +44,12 @@ private:
     /// Goes to the next scattering, crossing or hit; met: what that is.
     bool step_through_media(Hit& met);
     /// A place among the grains, in the void between them, near one on the surface of a medium.
-    V3d void_point(const V3d& place, const Crossing& crossing);
+    V3d void_point(const V3d& place, const V3d& d, const Crossing& crossing);
     /// Goes through the surface of a medium, which may move the ray's start.
     void handle_crossing(const Crossing& crossing);
     /// The first scattering of the media around, between two places on the ray.
     MediumEvent medium_event(double t0, double t1);
-    C3f media_transmittance(RegionSet regions, const V3d& o, const V3d& d, double length);
+    C3f media_transmittance(RegionSet regions, const V3d& o, const V3d& d, double t0, double t1);
     /// What passes from o to a light `distance` away, of all that stands and lies between.
     C3f passing(const V3d& o, const V3d& d, double distance, const Place& from, uint32_t light, RegionSet regions);
     C3f passing_media(V3d o, const V3d& d, double distance, Place from, uint32_t light, RegionSet regions);
@@ -60,7 +60,7 @@ private:
         d_ = d;
         from_ = from;
         beyond_ = passed_ = 0;
-        crossed_ = emerging_ = false;
+        crossed_ = false;
     }
 
     // Each handles one vertex; false when the path ends there.
@@ -105,7 +105,6 @@ private:
     RegionSet regions_ = 0;    // that the path is in
     Crossing crossing_;        // the last on this ray, if crossed_
     bool crossed_ = false;
-    bool emerging_ = false;    // from a medium, through a grain that stands in its surface
     double passed_ = 0;        // along the ray: up to there media and their surfaces are behind
     double moved_ = 0;         // how far the camera's ray came before its start was moved
     SpectralState spectral_;

@@ -52,10 +52,10 @@ ContinuousEquivalent continuous_equivalent(const MixtureMoments& moments, Equiva
         break;
     case EquivalentForm::formula: match(medium, moments.diffusivity(), moments.transport_length()); break;
     case EquivalentForm::walk:
-    case EquivalentForm::walk_decay:
+    case EquivalentForm::decay:
         if (!walk) throw std::invalid_argument("this form of the equivalent medium needs a walk in the packing");
         match(medium, walk->diffusivity.value, walk->transport_length.value);
-        if (form == EquivalentForm::walk_decay) match_decay(medium, *walk);
+        if (form == EquivalentForm::decay) match_decay(medium, *walk);
         break;
     }
     medium.transport_length = 1 / (medium.sigma_t * (1 - medium.g));

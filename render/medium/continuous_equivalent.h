@@ -1,23 +1,12 @@
 #pragma once
 
+#include "render/medium/equivalent_form.h"
 #include "render/medium/mixture_moments.h"
 #include "render/medium/packing_walk.h"
 
 #include <string>
 
 namespace scree {
-
-/// How the medium that stands for a packing is found.
-///
-/// In a bed of white spheres (reflectance 0.9, pack rate 0.6) light from a plane falls off by 0.770 +- 0.002 a radius; the media's by 0.692
-/// (plain), 0.691 (formula), 0.833 (walk) and 0.756 +- 0.005 (walk_decay, 600,000 scatterings). Of glass that absorbs 0.05 a radius:
-/// 0.1258 +- 0.0002; 0.339, 0.124, 0.120 and 0.1261.
-enum class EquivalentForm : uint8_t {
-    plain,      ///< the mean flight and the grains' own albedo and phase function; ways within grains are left out
-    formula,    ///< keeps transport length and diffusivity of independent flights
-    walk,       ///< keeps those of a walk in the packing
-    walk_decay, ///< and in each channel how light dies away deep in the packing
-};
 
 /// A homogeneous medium of Henyey-Greenstein scattering that stands for a packing; per the caller's unit of length.
 struct ContinuousEquivalent {

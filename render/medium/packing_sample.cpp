@@ -23,10 +23,10 @@ PackingSample sample_fill(const GrainFill& fill, uint64_t most)
     const ProceduralFill& spheres = fill.fill();
     PackingSample sample;
     sample.pack_rate = spheres.tile().fraction();
-    // Rows in turn, each in a cell by hash: cells outside have no grains, but a mixture has an answer for them as well.
+    // Rows and cells by hash: cells outside have no grains, but a mixture has an answer for them as well.
     for (const bool everywhere : {false, true}) {
         for (uint64_t i = 0; i < 8 * most && sample.grains.size() < most; ++i) {
-            const uint64_t cell = hash_index(i, 0) % spheres.cell_count(), row = i % spheres.tile().rows();
+            const uint64_t cell = hash_index(i, 0) % spheres.cell_count(), row = hash_index(i, 1) % spheres.tile().rows();
             if (!everywhere && spheres.kind(cell) == ProceduralFill::CellKind::outside) continue;
             const ProceduralFill::Sphere sphere = spheres.sphere(spheres.id(cell, row));
             if (!everywhere && !spheres.domain().contains(sphere.centre)) continue;
@@ -40,8 +40,12 @@ PackingSample sample_fill(const GrainFill& fill, uint64_t most)
 PackingSample sample_list(const GrainStore& grains, size_t types, uint64_t most, const Progress& progress)
 {
     PackingSample sample;
-    const uint64_t step = std::max<uint64_t>(1, grains.size() / most);
-    for (uint64_t i = 0; i < grains.size(); i += step) sample.grains.push_back({i, grains.radius(i), grains.type_codes[i]});
+    const uint64_t count = std::min<uint64_t>(grains.size(), most);
+    for (uint64_t n = 0; n < count; ++n) { // one of every so many, by hash: lists may have a rhythm
+        const uint64_t first = n * grains.size() / count, next = (n + 1) * grains.size() / count;
+        const uint64_t i = first + hash_index(n, 0) % (next - first);
+        sample.grains.push_back({i, grains.radius(i), grains.type_codes[i]});
+    }
     const GrainFieldOptions options{.margin = grains.margin};
     const GrainFields fields = make_grain_fields({grains.spheres.data(), grains.size()}, grains.type_codes, static_cast<uint32_t>(types), options, progress);
     std::vector<double> rates;
@@ -76,7 +80,11 @@ MomentTable::MomentTable(const std::vector<GrainType>& types, const PackingSampl
     }
     for (size_t i = 0; i < types_.size(); ++i) {
         Type& type = types_[i];
-        if (!type.gsdf || !(most[i] > 0)) continue;
+        if (!type.gsdf) continue;
+        if (!(most[i] > 0)) { // the sample has missed it
+            least[i] = std::ranges::min(least);
+            most[i] = std::ranges::max(most);
+        }
         constexpr double margin = 2, finest = 0.1; // shares of two radii reach beyond the sample's; steps of the logarithm
         type.least = std::log(least[i] / margin);
         const double range = std::log(most[i] * margin) - type.least;

@@ -23,7 +23,7 @@ struct PackingSample {
     double volume_weighted_radius() const;
 };
 
-/// At most `most` grains, every so many of a list. Empty where there are none.
+/// At most `most` grains, by hash. Empty where there are none.
 PackingSample sample_packing(const World& world, uint64_t most, const Progress& progress);
 
 /// The moments of types that are met again and again, with their albedo between some radii of the sample's range.

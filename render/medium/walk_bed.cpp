@@ -1,5 +1,6 @@
 #include "render/medium/walk_bed.h"
 
+#include "ingest/support/error.h"
 #include "mixtures/hash.h"
 #include "packing/tile_generator.h"
 
@@ -30,21 +31,22 @@ std::shared_ptr<const PackingTile> pack(const PackingSample& sample, std::vector
     constexpr size_t most = 1000;
     std::vector<PackingSample::Grain> sorted = sample.grains;
     std::ranges::stable_sort(sorted, {}, &PackingSample::Grain::radius);
-    const size_t count = std::min(most, sorted.size());
     std::vector<double> radii;
-    for (size_t i = 0; i < count; ++i) { // every so many in order of size
-        taken.push_back(sorted[(2 * i + 1) * sorted.size() / (2 * count)]);
+    for (size_t i = 0; i < most; ++i) { // in order of size: one of every so many, or each several times
+        taken.push_back(sorted[(2 * i + 1) * sorted.size() / (2 * most)]);
         radii.push_back(taken.back().radius);
     }
-    while (radii.size() < most) { // of a few grains many
-        taken.push_back(taken[radii.size() % count]);
-        radii.push_back(taken.back().radius);
-    }
-    constexpr double densest = 0.62; // what random packings of most sizes reach
+    constexpr double densest = 0.62, looser = 0.95, loosest = 0.5; // most sizes can be packed to the first, all to the last
     TileOptions options;
-    options.fraction = std::min(sample.pack_rate, densest);
     options.variants = 1;
-    return std::make_shared<const PackingTile>(make_tile(radii, options, progress).tile);
+    for (double fraction = std::min(sample.pack_rate, densest);; fraction *= looser) {
+        options.fraction = fraction;
+        try {
+            return std::make_shared<const PackingTile>(make_tile(radii, options, progress).tile);
+        } catch (const InputError&) { // jammed
+            if (fraction < loosest) throw;
+        }
+    }
 }
 
 TriangleMesh cube_of(double half)
@@ -55,9 +57,16 @@ TriangleMesh cube_of(double half)
     return mesh;
 }
 
+double mean_of(const std::vector<PackingSample::Grain>& grains)
+{
+    double sum = 0;
+    for (const PackingSample::Grain& grain : grains) sum += grain.radius;
+    return sum / static_cast<double>(grains.size());
+}
+
 } // namespace
 
-PackingWalk walk_like(const World& world, const PackingSample& sample, const Progress& progress)
+BedWalk walk_like(const World& world, const PackingSample& sample, const Progress& progress)
 {
     std::vector<PackingSample::Grain> grains;
     std::shared_ptr<const PackingTile> tile;
@@ -77,13 +86,14 @@ PackingWalk walk_like(const World& world, const PackingSample& sample, const Pro
     for (const PackingSample::Grain& grain : grains) types[grain.row].push_back(grain.type);
 
     // Mean radii as the unit of length, whatever it is in the world.
-    const double unit = world.fill ? world.fill->fill().tile().mean_radius() * world.fill->fill().scale() * world.space.length(1) : sample.mean_radius();
+    const double unit = world.fill ? world.fill->fill().tile().mean_radius() * world.fill->fill().scale() * world.space.length(1) : mean_of(grains);
     const double half = 2000 / std::min(sample.pack_rate, 1.0); // no walk comes near the faces, and a larger cube costs no more
     World bed;
     bed.types = world.types;
     for (GrainType& type : bed.types) {
         type.material.absorption *= static_cast<float>(unit);
         type.exemplar = nullptr; // grains are proxies
+        if (!type.gsdf) type.gsdf = world.types[grains.front().type].gsdf; // of no grain
     }
     const auto fill = std::make_shared<ProceduralFill>(std::make_shared<const Domain>(cube_of(half), "a cube"), tile, FillOptions{1, 0});
     bed.fill = std::make_shared<GrainFill>(fill, std::make_shared<RowMixture>(std::move(types), grains.front().type), bed.space);
@@ -107,7 +117,7 @@ PackingWalk walk_like(const World& world, const PackingSample& sample, const Pro
             rate->error /= unit;
         }
     }
-    return walk;
+    return {walk, tile->fraction()};
 }
 
 } // namespace scree

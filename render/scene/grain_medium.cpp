@@ -39,7 +39,7 @@ public:
         const MixtureMoments moments = mixture_moments(shares, std::min(pack_rate, densest));
         if (whole_.medium.form == EquivalentForm::plain) return {static_cast<float>(1 / moments.flight), static_cast<float>(moments.g), V3f(moments.albedo)};
         // Grains far apart know nothing of each other, and the formula is right.
-        const double together = std::min(1.0, pack_rate / whole_.sample.pack_rate);
+        const double together = std::min(1.0, pack_rate / whole_.pack_rate);
         const auto corrected = [together](double factor) { return 1 + together * (factor - 1); };
         const double d = moments.diffusivity() * corrected(diffusivity_), l = moments.transport_length() * corrected(transport_);
         const double g = std::clamp(1 - d / (l * l), -0.95, 0.9999);
@@ -189,9 +189,13 @@ std::optional<GrainMedium> make_grain_medium(const World& world, EquivalentForm 
     if (result.sample.grains.empty()) return std::nullopt;
     const MomentTable table(world.types, result.sample);
     constexpr double loosest = 1e-6, densest = 0.9; // heaps of a few grains, and of grains that overlap
-    result.sample.pack_rate = std::clamp(result.sample.pack_rate, loosest, densest);
-    result.moments = mixture_moments(shares_of(result.sample, table), result.sample.pack_rate);
-    if (form == EquivalentForm::walk || form == EquivalentForm::walk_decay) result.walk = walk_like(world, result.sample, progress);
+    result.pack_rate = result.sample.pack_rate = std::clamp(result.sample.pack_rate, loosest, densest);
+    if (form == EquivalentForm::walk || form == EquivalentForm::decay) {
+        const BedWalk walked = walk_like(world, result.sample, progress);
+        result.walk = walked.walk;
+        result.pack_rate = walked.pack_rate;
+    }
+    result.moments = mixture_moments(shares_of(result.sample, table), result.pack_rate);
     result.medium = continuous_equivalent(result.moments, form, result.walk ? &*result.walk : nullptr);
     return result;
 }
@@ -238,6 +242,7 @@ void replace_grains(const GrainMedium& medium, double depth, World& world, std::
         if (all) remarks.push_back("no place is deeper among the grains than one of them: the picture lacks them");
     }
     if (all) {
+        world.replaced_grains = world.grain_count();
         world.grains = {};
         world.fill = nullptr;
     }

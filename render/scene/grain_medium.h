@@ -14,7 +14,8 @@ namespace scree {
 /// What stands for a packing, and what it follows from; lengths in render coordinates.
 struct GrainMedium {
     PackingSample sample;
-    MixtureMoments moments;          ///< of the whole at the sample's pack rate
+    double pack_rate = 0;            ///< of what follows: the sample's, or that of the walk
+    MixtureMoments moments;          ///< of the whole
     std::optional<PackingWalk> walk; ///< where the form needs one
     ContinuousEquivalent medium;
 };

@@ -55,7 +55,10 @@ void MediumBuilder::refuse_overlaps(const World& world) const
     for (size_t i = 0; i < world.regions.size(); ++i) {
         for (size_t j = 0; j < i; ++j) {
             const MediumRegion &a = world.regions[i], &b = world.regions[j];
-            if (a.is_achromatic() || b.is_achromatic() || !bounds_of_region(a).intersects(bounds_of_region(b))) continue;
+            const Imath::Box3d x = bounds_of_region(a), y = bounds_of_region(b);
+            bool overlap = true; // not only at a face
+            for (int axis = 0; axis < 3; ++axis) overlap = overlap && x.min[axis] < y.max[axis] && y.min[axis] < x.max[axis];
+            if (a.is_achromatic() || b.is_achromatic() || !overlap) continue;
             throw InputError(scene_.file.string() + ": /medium", fmt::format("'{}' and '{}', of both of which the extinction depends on the channel, within one box", a.name, b.name),
                              "media apart from each other, or one of them with the same extinction in all channels");
         }
@@ -85,8 +88,9 @@ std::vector<V3d> MediumBuilder::read()
     return points;
 }
 
-uint64_t MediumBuilder::build(World& world, std::vector<PartReport>& parts, uint64_t hash, const Progress& progress)
+uint64_t MediumBuilder::build(World& world, const TypeRequest& request, uint64_t hash)
 {
+    std::vector<PartReport>& parts = request.parts;
     for (size_t i = 0; i < scene_.media.size(); ++i) {
         const MediumDescription& medium = scene_.media[i];
         const std::string part = "medium '" + name_of(medium) + "'";
@@ -102,14 +106,19 @@ uint64_t MediumBuilder::build(World& world, std::vector<PartReport>& parts, uint
         uint64_t bytes = region.triangles.size() * sizeof(region.triangles[0]) + region.positions.size() * sizeof(V3f);
         std::string what = "the same everywhere";
         if (medium.mesh.empty()) {
+            if (request.precompute == Precompute::never) {
+                parts.push_back({part, true, "to be read"});
+                continue;
+            }
             Made& made = grids_[i]; // a film of grains mostly stays in one space
             if (!made.grid || made.space.origin != world.space.origin || made.space.exponent != world.space.exponent) {
-                made = {std::make_shared<GridMedium>(read_vdb_medium(medium.vdb, vdb_options(medium), world.space, progress)), world.space};
+                made = {std::make_shared<GridMedium>(read_vdb_medium(medium.vdb, vdb_options(medium), world.space, request.progress)), world.space, made.hash};
             }
             region.grid = made.grid;
             bytes += region.grid->bytes();
             what = "from grids";
-            hash = hash_file(medium.vdb, hash);
+            if (made.hash == 0) made.hash = hash_file(medium.vdb, 1);
+            hash = mix64(hash ^ made.hash);
         } else {
             const double unit = world.space.world_length(1);
             region.homogeneous = std::make_shared<HomogeneousMedium>(unit * V3d(medium.sigma_t.x, medium.sigma_t.y, medium.sigma_t.z), medium.albedo, medium.g);

@@ -4,6 +4,7 @@
 #include "ingest/triangle_mesh.h"
 #include "render/scene/part_report.h"
 #include "render/scene/scene_description.h"
+#include "render/scene/type_builder.h"
 #include "render/scene/world.h"
 
 #include <map>
@@ -20,7 +21,7 @@ public:
     /// Reads what has not been read, and the points that bound it, scene coordinates. Throws InputError.
     std::vector<V3d> read();
     /// Adds the media to `world`, whose space is set, and a report on each. Returns `hash` with their files mixed in.
-    uint64_t build(World& world, std::vector<PartReport>& parts, uint64_t hash, const Progress& progress);
+    uint64_t build(World& world, const TypeRequest& request, uint64_t hash);
 
 private:
     void refuse_overlaps(const World& world) const;
@@ -28,6 +29,7 @@ private:
     struct Made {
         std::shared_ptr<const GridMedium> grid;
         RenderSpace space; ///< that it was made for
+        uint64_t hash = 0; ///< of the file
     };
     const SceneDescription& scene_;
     std::map<size_t, Made> grids_; ///< by medium

@@ -13,7 +13,6 @@ MediumDescription read_medium(const JsonValue& json)
 {
     JsonObject object = json.object();
     MediumDescription medium;
-    medium.place = json.place();
     const auto mesh = object.find("mesh"), vdb = object.find("vdb");
     if (mesh.has_value() == vdb.has_value()) {
         json.fail("either the key 'mesh', a closed surface with the same medium everywhere, or 'vdb', a file of a medium that varies",

@@ -22,6 +22,7 @@ struct CrossingQuery {
     const World* world;
     V3d o, d;
     double tmin, best, advanced; // Embree's ray starts at o + advanced d
+    double slack;                // what rounding to float may move a crossing by
     const Crossing* last;
     Crossing crossing;
     bool found = false;
@@ -33,14 +34,18 @@ void crossing_filter(const RTCFilterFunctionNArguments* args)
     auto* ray = reinterpret_cast<RTCRay*>(args->ray);
     const auto* hit = reinterpret_cast<const RTCHit*>(args->hit);
     args->valid[0] = 0;
-    if (query.last && query.last->region == hit->geomID && query.last->triangle == hit->primID) return;
     const auto c = corners_of(query.world->regions[hit->geomID], hit->primID);
     const double t = meet_plane(c, query.o, query.d).t;
-    if (!(t > query.tmin && t < query.best)) return;
+    // Where surfaces coincide they are gone through in order of their numbers.
+    const std::pair which{hit->geomID, hit->primID};
+    if (query.last && which == std::pair{query.last->region, query.last->triangle}) return;
+    const bool due = t > query.tmin || (query.last && t == query.tmin && which > std::pair{query.last->region, query.last->triangle});
+    const bool first = t < query.best || (query.found && t == query.best && which < std::pair{query.crossing.region, query.crossing.triangle});
+    if (!due || !first) return;
     query.best = t;
     query.found = true;
     query.crossing = {t, hit->geomID, hit->primID, (c[1] - c[0]).cross(c[2] - c[0]).dot(query.d) < 0};
-    ray->tfar = static_cast<float>(std::max(0.0, t - query.advanced));
+    ray->tfar = static_cast<float>(std::max(0.0, t - query.advanced) + query.slack);
     args->valid[0] = -1;
 }
 
@@ -150,8 +155,9 @@ bool RegionTracer::next(const V3d& o, const V3d& d, double tmin, double tmax, co
     query.tmin = tmin;
     query.best = tmax;
     query.last = last;
-    query.advanced = std::max(tmin, along - reach) - 0x1p-20 * (impl_->middle.length() + reach);
-    RTCRayHit ray = make_ray(o + query.advanced * d, d, (tmax - query.advanced) * (1 + 0x1p-20));
+    query.slack = 0x1p-20 * (impl_->middle.length() + reach);
+    query.advanced = std::max(tmin, along - reach) - query.slack;
+    RTCRayHit ray = make_ray(o + query.advanced * d, d, tmax - query.advanced + query.slack);
     rtcIntersect1(impl_->scene, &query.context, &ray);
     if (query.found) crossing = query.crossing;
     return query.found;

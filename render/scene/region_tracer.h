@@ -46,6 +46,14 @@ public:
     }
     /// Of the surface, outwards.
     V3d normal(const Crossing& crossing) const;
+    /// `regions` of a ray, mended by the next crossing ahead of it: one that enters a region comes from outside of it. null: there is none
+    /// ahead, and the ray is outside of all.
+    static RegionSet before(RegionSet regions, const Crossing* next)
+    {
+        if (!next) return 0;
+        const RegionSet bit = RegionSet{1} << next->region;
+        return next->enters ? regions & ~bit : regions | bit;
+    }
     /// The regions that stand for grains.
     RegionSet instead_of_grains() const { return instead_of_grains_; }
     /// No surface, light or region's surface is nearer to p than this.

@@ -4,6 +4,7 @@
 #include "render/film/filter.h"
 #include "render/grains/library/grain_library.h"
 #include "render/materials/material.h"
+#include "render/medium/equivalent_form.h"
 #include "render/scene/camera.h"
 
 #include <filesystem>
@@ -91,15 +92,10 @@ struct MediumDescription {
     std::string density = "density";   ///< vdb: names of grids
     std::string albedo_grid, g_grid;   ///< vdb: empty where it is the same everywhere
     bool nearest = false;              ///< vdb: no interpolation between voxels
-    std::string place;
 };
 
 enum class IntegratorKind : uint8_t { automatic, ept, ppt, vpt };
 inline const std::vector<std::string> integrator_names{"auto", "ept", "ppt", "vpt"};
-
-/// How a medium is made equivalent to grains (render/medium/continuous_equivalent.h).
-enum class MediumForm : uint8_t { plain, formula, walk, decay };
-inline const std::vector<std::string> medium_form_names{"plain", "formula", "walk", "decay"};
 
 /// How far approximations may go.
 enum class Accuracy : uint8_t { reference, high, standard, draft };
@@ -112,7 +108,7 @@ struct IntegratorDescription {
     uint32_t explicit_grains = 0; ///< ppt: how many grains of a path are traced as they are
 
     std::optional<double> grain_depth; ///< mean radii below every face, from where on a medium stands for the grains; absent: nowhere
-    MediumForm medium_form = MediumForm::decay;
+    EquivalentForm medium_form = EquivalentForm::decay;
 
     bool has_proxies() const { return kind == IntegratorKind::ppt; }
     /// Whether a medium stands for some grains.

@@ -177,6 +177,8 @@ void tracer_filter(const RTCFilterFunctionNArguments* args)
         ray->tfar = query.embree_end();
         args->valid[0] = -1;
         return;
+    } else if (query.around) {
+        return;
     } else if (tracer.is_surface(hit->geomID)) {
         place = {HitKind::surface, hit->geomID - Tracer::Impl::first_surface, hit->primID};
         if (query.from.kind == HitKind::surface && query.from.index == place.index && query.from.triangle == place.triangle) return;

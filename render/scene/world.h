@@ -47,6 +47,7 @@ struct World {
     std::vector<Surface> surfaces;
     std::vector<MediumRegion> regions;
     LightSet lights;
+    uint64_t replaced_grains = 0; ///< that are no longer there, as a medium stands for all of them
 
     bool has_grains() const { return fill || grains.size() > 0; }
     /// How many there are; of a fill about, as nobody has counted them.

@@ -302,19 +302,22 @@ void WorldBuilder::Impl::replace_grains(World& world, const Progress& progress, 
         return;
     }
     const bool all = integrator.kind == IntegratorKind::vpt;
+    const double depth = all ? -1 : *integrator.grain_depth;
+    hash = hash_bytes(&depth, sizeof depth, mix64(hash + static_cast<uint64_t>(integrator.medium_form)));
+    if (all && integrator.grain_depth) frame_warnings.push_back("grain_depth has no effect with vpt, which traces no grains");
     if (precompute == Precompute::never) {
-        parts.push_back({"medium of the grains", true, all ? "to be made, in place of all grains" : fmt::format("to be made, where there is a place {:g} mean radii below every face", *integrator.grain_depth)});
+        parts.push_back({"medium of the grains", true, all ? "to be made, in place of all grains" : fmt::format("to be made, where there is a place {:g} mean radii below every face", depth)});
         return;
     }
     const Stopwatch watch;
-    const auto medium = make_grain_medium(world, static_cast<EquivalentForm>(integrator.medium_form), progress);
+    const auto medium = make_grain_medium(world, integrator.medium_form, progress);
     if (!medium) return;
     if (medium->walk) {
         parts.push_back({"walk in the packing", true, fmt::format("{} scatterings, transport length to {:.2g} %", medium->walk->scatterings, 100 * medium->walk->transport_length.error / medium->walk->transport_length.value), watch.seconds()});
     } else {
         parts.push_back({"walk in the packing", false, "the form of the medium needs none"});
     }
-    scree::replace_grains(*medium, all ? -1 : *integrator.grain_depth, world, parts, frame_warnings, progress);
+    scree::replace_grains(*medium, depth, world, parts, frame_warnings, progress);
 }
 
 LightSet WorldBuilder::Impl::make_lights(const World& world)
@@ -325,7 +328,9 @@ LightSet WorldBuilder::Impl::make_lights(const World& world)
         lights.push_back(make_light(scene.lights[i], read_map(i), world.space));
         point |= lights.back().kind == LightKind::distant && lights.back().one_minus_cos == 0;
     }
-    for (const GrainType& type : world.types) glass |= type.material.transmits() || type.material.is_delta();
+    if (world.has_grains()) {
+        for (const GrainType& type : world.types) glass |= type.material.transmits() || type.material.is_delta();
+    }
     for (const Surface& surface : world.surfaces) glass |= surface.material.transmits() || surface.material.is_delta();
     if (point && glass) {
         frame_warnings.push_back("a distant light of angle 0 cannot be found by paths through glass: its caustics are missing");
@@ -393,7 +398,7 @@ std::shared_ptr<const World> WorldBuilder::build(size_t frame, const Progress& p
         impl_->parts.push_back({"grains", false, "the scene has none"});
     }
     impl_->make_surfaces(*world);
-    impl_->hash = impl_->media.build(*world, impl_->parts, impl_->hash, progress);
+    impl_->hash = impl_->media.build(*world, request, impl_->hash);
     if (impl_->scene.media.empty()) impl_->parts.push_back({"medium", false, "the scene has none"});
     impl_->replace_grains(*world, progress, precompute);
     world->lights = impl_->make_lights(*world);

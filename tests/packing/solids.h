@@ -1,11 +1,8 @@
 #pragma once
 
-#include "ingest/triangle_mesh.h"
+#include "tests/builders/shapes.h"
 
 namespace scree {
-
-/// Axis-aligned box, 12 triangles looking outward.
-TriangleMesh box(const Imath::V3d& lo, const Imath::V3d& hi);
 
 /// A ring around the z axis: 2 * around * along triangles.
 TriangleMesh torus(double major, double minor, int around, int along);

@@ -187,7 +187,7 @@ TEST(ContinuousEquivalent, FormsKeepWhatTheyPromise)
     EXPECT_EQ(formula.albedo, mixture.albedo);
     EXPECT_EQ(formula.albedo.z, 1); // blue is not absorbed: nothing is lost, not nearly nothing
     EXPECT_EQ(formula.decay.z, 0);
-    EXPECT_THROW(continuous_equivalent(mixture, EquivalentForm::walk_decay), std::invalid_argument);
+    EXPECT_THROW(continuous_equivalent(mixture, EquivalentForm::decay), std::invalid_argument);
 }
 
 TEST(ContinuousEquivalent, SaysWhatIsOutOfReach)
@@ -198,9 +198,9 @@ TEST(ContinuousEquivalent, SaysWhatIsOutOfReach)
     PackingWalk walk;
     walk.diffusivity = {1, 0.01};
     walk.transport_length = {1, 0.01};
-    EXPECT_EQ(continuous_equivalent(mixture, EquivalentForm::walk_decay, &walk).doubt, "");
+    EXPECT_EQ(continuous_equivalent(mixture, EquivalentForm::decay, &walk).doubt, "");
     walk.decay[1].kappa = {2, 0.1}; // the mean free path is 1
-    const auto dark = continuous_equivalent(mixture, EquivalentForm::walk_decay, &walk);
+    const auto dark = continuous_equivalent(mixture, EquivalentForm::decay, &walk);
     EXPECT_NE(dark.doubt, "");
     EXPECT_GT(dark.albedo.y, 0);
     EXPECT_LT(dark.albedo.y, 0.01);

@@ -173,7 +173,7 @@ TEST(PackingWalk, OfOpaqueGrainsSpreadsLessThanIndependentFlights)
     // An independent tracer found 0.39 at f 0.6, to its two digits.
     EXPECT_LT(std::abs(walk.diffusivity.value - 0.39), 4 * walk.diffusivity.error + 0.005);
 
-    const auto medium = continuous_equivalent(mixture, EquivalentForm::walk_decay, &walk);
+    const auto medium = continuous_equivalent(mixture, EquivalentForm::decay, &walk);
     EXPECT_NEAR(medium.diffusivity, walk.diffusivity.value, 1e-12);
     EXPECT_NEAR(medium.transport_length, walk.transport_length.value, 1e-12);
     for (int c = 0; c < 3; ++c) {
@@ -248,7 +248,7 @@ TEST(PackingWalk, DecayIsThatOfLightFromAPlane)
                     continuous_equivalent(mixture, EquivalentForm::walk, &walk).decay.x);
         // Ways of some ten scatterings do not know all of the packing's memory: 1.5 %.
         EXPECT_LT(std::abs(kappa.value - measured.value), 0.015 * measured.value + 4 * std::hypot(kappa.error, measured.error));
-        EXPECT_NEAR(continuous_equivalent(mixture, EquivalentForm::walk_decay, &walk).decay.x, kappa.value, 1e-6);
+        EXPECT_NEAR(continuous_equivalent(mixture, EquivalentForm::decay, &walk).decay.x, kappa.value, 1e-6);
     }
 }
 
@@ -261,7 +261,7 @@ TEST(PackingWalk, LosslessStaysLossless)
     const MixtureMoments mixture = mixture_moments({&share, 1}, 0.5);
     const TileBed bed(sphere_tile(0.5, 600), 1, type, 300);
     const PackingWalk walk = walk_packing(bed.world(), bed.tracer(), walk_options(bed, 60000));
-    const auto medium = continuous_equivalent(mixture, EquivalentForm::walk_decay, &walk);
+    const auto medium = continuous_equivalent(mixture, EquivalentForm::decay, &walk);
     EXPECT_EQ(medium.albedo.x, 1);
     EXPECT_EQ(medium.decay.x, 0);
     EXPECT_LT(medium.albedo.y, 1);

@@ -249,7 +249,7 @@ TEST(SceneDescription, ReadsMedia)
     EXPECT_TRUE(scene.media[1].nearest);
     EXPECT_EQ(scene.integrator.kind, IntegratorKind::vpt);
     EXPECT_EQ(scene.integrator.grain_depth, 4);
-    EXPECT_EQ(scene.integrator.medium_form, MediumForm::walk);
+    EXPECT_EQ(scene.integrator.medium_form, EquivalentForm::walk);
 }
 
 TEST(SceneDescription, TakesNullForAbsent)

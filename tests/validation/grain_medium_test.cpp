@@ -60,7 +60,7 @@ TEST(WalkLike, FindsTheFormulaInAThinMixtureOfTypesAndSizes)
     sample.pack_rate = 0.01;
     const MomentTable table(scene.world().types, sample);
     const MixtureMoments moments = mixture_moments(shares_of(sample, table), sample.pack_rate);
-    const PackingWalk walk = walk_like(scene.world(), sample, {});
+    const PackingWalk walk = walk_like(scene.world(), sample, {}).walk;
     const auto expect_near = [](const Measured& found, double formula, const std::string& what) {
         // At 1 % of the volume grains still hide each other a little: 1 %.
         EXPECT_LT(std::abs(found.value - formula), 4 * found.error + 0.01 * std::abs(formula)) << what << ": " << found.value << " +- " << found.error << ", by formula " << formula;
@@ -146,7 +146,7 @@ TEST(GrainMedium, LeavesPicturesOfBedsAsTheyAre)
     for (const BedGrain& grain : bed_grains(0.05)) {
         if (grain.name == "glass cubes" || grain.name == "flour") continue; // as sugar and white spheres
         const auto bed = make_bed(grain, 0.6, 6000);
-        const Cored cored(*bed, 4, EquivalentForm::walk_decay);
+        const Cored cored(*bed, 4, EquivalentForm::decay);
         ASSERT_EQ(cored.world.regions.size(), 1u) << grain.name;
         PathOptions options;
         options.explicit_grains = 0;

@@ -140,6 +140,25 @@ TEST(Slab, IsTheSameAsAGrid)
     expect_truth(shine(thick.world, *thick.tracer, 10, paths / 4, 1, 22).down[0], 0.14700, "grid, g 0, albedo 1, tau 10: T");
 }
 
+TEST(Slab, IsTheSumOfTwoThatTouch)
+{
+    for (const bool grey : {true, false}) { // both of one kind, or of two that add up in one box
+        TestScene scene;
+        const double wide = 6e3;
+        if (grey) {
+            scene.add_medium(box({-wide, -wide, -2}, {wide, wide, -1}), V3d(1), C3f(0.9f), 0.75);
+            scene.add_medium(box({-wide, -wide, -1}, {wide, wide, 0}), V3d(1), C3f(0.9f), 0.75);
+        } else {
+            for (const double sigma_t : {0.25, 0.75}) scene.add_medium(box({-wide, -wide, -2}, {wide, wide, 0}), V3d(sigma_t), C3f(0.9f), 0.75);
+        }
+        scene.add_constant_light(1);
+        scene.build();
+        const ReflectedAndPassed sum = shine(scene, paths, 1, 31);
+        expect_truth(sum.up[0], 0.09739, grey ? "two slabs that touch: R" : "two slabs in one: R");
+        expect_truth(sum.down[0], 0.66096, grey ? "two slabs that touch: T" : "two slabs in one: T");
+    }
+}
+
 TEST(Slab, ChannelsThatSeeItDifferentlyAreEachRight)
 {
     // tau 2, 10 and 0.1; single channels are known from the above or by a walk of their own.
@@ -236,6 +255,33 @@ TEST(MediumFurnace, IsWhiteWithGrainsAndSurfacesAndMediaInEachOther)
         const Estimate e = from_all_around(sampled, 100000, 4, options, 2);
         EXPECT_LT(std::abs(e.z(1)), 4) << static_cast<int>(strategy) << ": " << e.mean() << " +- " << e.standard_error();
         std::printf("strategy %d: %.5f +- %.5f\n", static_cast<int>(strategy), e.mean(), e.standard_error());
+    }
+}
+
+TEST(MediumFurnace, IsWhiteWhereFacesCoincide)
+{
+    // On a white floor, under a glass box of the same size, and against another medium.
+    TestScene constant, sampled;
+    for (TestScene* scene : {&constant, &sampled}) {
+        scene->add_medium(box({-1, -1, 0}, {0, 1, 1}), V3d(4), C3f(1), 0.5);
+        scene->add_medium(box({0, -1, 0}, {1, 1, 1}), V3d(9), C3f(1), -0.2);
+        scene->add_surface(ground(3, 0), lambert(1));
+        scene->add_surface(box({0, -1, 0}, {1, 1, 1}), dielectric(1.3));
+    }
+    constant.add_constant_light(1);
+    Light environment;
+    environment.kind = LightKind::environment;
+    environment.map = std::make_shared<EnvironmentMap>(std::vector<C3f>(16 * 8, C3f(1)), 16, 8, V3d(0, 0, 1), C3f(1));
+    sampled.add_light(environment);
+    constant.build();
+    sampled.build();
+    EXPECT_NEAR(from_all_around(constant, 20000, 4, {}, 5).mean(), 1, 1e-6);
+    for (const DirectLight strategy : {DirectLight::both, DirectLight::lights_only, DirectLight::scattering_only}) {
+        PathOptions options;
+        options.direct_light = strategy;
+        const Estimate e = from_all_around(sampled, 100000, 4, options, 6);
+        EXPECT_LT(std::abs(e.z(1)), 4) << static_cast<int>(strategy) << ": " << e.mean() << " +- " << e.standard_error();
+        std::printf("faces coincide, strategy %d: %.5f +- %.5f\n", static_cast<int>(strategy), e.mean(), e.standard_error());
     }
 }
 
