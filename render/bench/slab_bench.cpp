@@ -32,8 +32,9 @@ constexpr double wide = 40; // half its width over its thickness
 
 MediumRegion region(const V3d& lo, const V3d& hi, const ContinuousEquivalent& medium)
 {
-    MediumRegion region{"slab", {}, cube().triangles, nullptr, nullptr, true};
-    for (const V3d& p : box(lo, hi).positions) region.positions.emplace_back(p);
+    const TriangleMesh mesh = box(lo, hi);
+    MediumRegion region{"slab", {}, mesh.triangles, nullptr, nullptr, true};
+    for (const V3d& p : mesh.positions) region.positions.emplace_back(p);
     region.homogeneous = std::make_shared<HomogeneousMedium>(V3d(medium.sigma_t), C3f(V3f(medium.albedo)), medium.g);
     return region;
 }

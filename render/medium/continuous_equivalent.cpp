@@ -26,6 +26,12 @@ void match(ContinuousEquivalent& medium, double diffusivity, double transport_le
 
 void match_decay(ContinuousEquivalent& medium, const PackingWalk& walk)
 {
+    // What a half-space reflects follows from albedo and g alone: so the brightest channel keeps its own, and it is sigma_t that
+    // gives it the decay of the packing (none is lost where nothing decays). The others then need other albedos.
+    const MixtureMoments& moments = medium.moments;
+    const int brightest = moments.albedo.x >= moments.albedo.y ? (moments.albedo.x >= moments.albedo.z ? 0 : 2) : (moments.albedo.y >= moments.albedo.z ? 1 : 2);
+    const double wanted = walk.decay[static_cast<size_t>(brightest)].kappa.value;
+    if (const double kappa = decay_constant(moments.albedo[brightest], medium.g); wanted > 0 && kappa > 0) medium.sigma_t = wanted / kappa;
     for (int c = 0; c < 3; ++c) {
         const double kappa = walk.decay[static_cast<size_t>(c)].kappa.value / medium.sigma_t;
         if (!(kappa > 0)) continue; // loses nothing

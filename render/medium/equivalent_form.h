@@ -11,7 +11,7 @@ enum class EquivalentForm : uint8_t {
     plain,   ///< the mean flight and the grains' own albedo and phase function; ways within grains are left out
     formula, ///< keeps transport length and diffusivity of independent flights
     walk,    ///< keeps those of a walk in the packing
-    decay,   ///< and in each channel how light dies away deep in the packing
+    decay,   ///< and in each channel how light dies away deep in the packing: sigma_t gives it to the brightest, albedos to the others
 };
 inline const std::vector<std::string> medium_form_names{"plain", "formula", "walk", "decay"};
 

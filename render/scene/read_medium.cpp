@@ -1,11 +1,12 @@
 #include "render/scene/read_medium.h"
 
+#include <cmath>
+
 namespace scree {
 
 namespace {
 
-constexpr double largest = std::numeric_limits<float>::max();      // of what is kept as float
-constexpr double largest_g = 1 - std::numeric_limits<float>::epsilon(); // beyond, scattering has no density
+constexpr double largest = std::numeric_limits<float>::max(); // of what is kept as float
 
 } // namespace
 
@@ -33,7 +34,7 @@ MediumDescription read_medium(const JsonValue& json)
     }
     if (const auto g = object.find("g")) {
         if (g->is_string() && vdb) medium.g_grid = g->string();
-        else medium.g = g->number(-largest_g, largest_g);
+        else if (medium.g = g->number(-1, 1); std::abs(medium.g) == 1) g->fail("a number above -1 and below 1"); // scattering would have no density
     }
     object.done();
     return medium;

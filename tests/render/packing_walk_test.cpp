@@ -174,8 +174,11 @@ TEST(PackingWalk, OfOpaqueGrainsSpreadsLessThanIndependentFlights)
     EXPECT_LT(std::abs(walk.diffusivity.value - 0.39), 4 * walk.diffusivity.error + 0.005);
 
     const auto medium = continuous_equivalent(mixture, EquivalentForm::decay, &walk);
-    EXPECT_NEAR(medium.diffusivity, walk.diffusivity.value, 1e-12);
-    EXPECT_NEAR(medium.transport_length, walk.transport_length.value, 1e-12);
+    const auto lossless = continuous_equivalent(mixture, EquivalentForm::walk, &walk);
+    EXPECT_NEAR(lossless.diffusivity, walk.diffusivity.value, 1e-12);
+    EXPECT_NEAR(lossless.transport_length, walk.transport_length.value, 1e-12);
+    EXPECT_NEAR(medium.albedo.x, mixture.albedo.x, 1e-6); // what it reflects, by albedo and g, is as of the grains
+    EXPECT_EQ(medium.g, lossless.g);
     for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(medium.decay[c], walk.decay[0].kappa.value, 1e-6);
         EXPECT_EQ(walk.decay[static_cast<size_t>(c)].kappa.value, walk.decay[0].kappa.value); // grey

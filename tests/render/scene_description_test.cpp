@@ -378,7 +378,7 @@ const std::vector<Wrong> wrong_scenes{
     {R"("medium": [{"mesh": "slab.off", "vdb": "cloud.vdb"}])", "/medium/0", "cloud.vdb", "either the key 'mesh'", ""},
     {R"("medium": [{"mesh": "slab.off", "sigma_t": -1}])", "/medium/0/sigma_t", "-1", "0..", ""},
     {R"("medium": [{"mesh": "slab.off", "sigma_t": 1, "albedo": 1.5}])", "/medium/0/albedo", "1.5", "0..1", ""},
-    {R"("medium": [{"mesh": "slab.off", "sigma_t": 1, "g": 1}])", "/medium/0/g", "1", "-1..1", ""},
+    {R"("medium": [{"mesh": "slab.off", "sigma_t": 1, "g": 1}])", "/medium/0/g", "1", "above -1 and below 1", ""},
     {R"("medium": [{"mesh": "slab.off", "sigma_t": 1, "density": "rho"}])", "/medium/0", "'density'", "", ""},
     {R"("medium": [{"vdb": "cloud.vdb", "interpolation": "cubic"}])", "/medium/0/interpolation", "cubic", "linear, nearest", ""},
     {R"("integrator": {"grain_depth": -1})", "/integrator/grain_depth", "-1", "0..", ""},

@@ -115,13 +115,14 @@ struct GridSlab {
         MediumGrids grids{grid, nullptr, nullptr, {}, "slab"};
         grids.to_scene[0][0] = grids.to_scene[1][1] = unit * wide / across;
         grids.to_scene[2][2] = unit * depth / down;
-        MediumRegion region{"slab", {}, cube().triangles, nullptr, nullptr, false};
+        // Cut out of its middle, where interpolation does not meet the grid's faces.
+        const TriangleMesh mesh = box(unit * V3d(-0.5 * wide, -0.5 * wide, -0.5 * depth), unit * V3d(0.5 * wide, 0.5 * wide, 0.5 * depth));
+        MediumRegion region{"slab", {}, mesh.triangles, nullptr, nullptr, false};
         GridMediumOptions options;
         options.albedo = C3f(albedo);
         options.g = g;
         region.grid = std::make_shared<GridMedium>(make_grid_medium(grids, options, {}, {}));
-        // Cut out of its middle, where interpolation does not meet the grid's faces.
-        for (const V3d& p : box(unit * V3d(-0.5 * wide, -0.5 * wide, -0.5 * depth), unit * V3d(0.5 * wide, 0.5 * wide, 0.5 * depth)).positions) region.positions.emplace_back(p);
+        for (const V3d& p : mesh.positions) region.positions.emplace_back(p);
         world.regions.push_back(std::move(region));
         world.lights = LightSet({Light{}}, 1);
         tracer = std::make_unique<Tracer>(std::make_shared<EmbreeDevice>(), world);
