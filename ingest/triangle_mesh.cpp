@@ -33,6 +33,15 @@ std::vector<DirectedEdge> sorted_edges(const TriangleMesh& mesh)
 
 } // namespace
 
+TriangleMesh box_mesh(const Imath::V3d& lo, const Imath::V3d& hi)
+{
+    TriangleMesh mesh;
+    for (int k = 0; k < 8; ++k) mesh.positions.emplace_back(k & 1 ? hi.x : lo.x, k & 2 ? hi.y : lo.y, k & 4 ? hi.z : lo.z);
+    mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                      {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    return mesh;
+}
+
 MeshTopology topology_of(const TriangleMesh& mesh)
 {
     const std::vector<DirectedEdge> edges = sorted_edges(mesh);

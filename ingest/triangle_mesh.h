@@ -15,6 +15,9 @@ struct TriangleMesh {
     std::vector<std::array<uint32_t, 3>> triangles;
 };
 
+/// A box as 12 triangles, faces looking outward.
+TriangleMesh box_mesh(const Imath::V3d& lo, const Imath::V3d& hi);
+
 /// Reads OBJ, PLY, STL or OFF (by extension; text or binary); polygons are triangulated, exact duplicates of
 /// vertices are merged (STL always, other formats where that closes the surface, as at the seams of textures),
 /// faces of no area are dropped. Throws InputError naming the file (text: and the line) and the defect.

@@ -17,7 +17,7 @@ json channels(const V3d& v)
     return v.x == v.y && v.x == v.z ? json(v.x) : json{v.x, v.y, v.z};
 }
 
-/// The numbers of a homogeneous medium; unit: a scene unit in the unit that sigma_t is per.
+/// The numbers of a homogeneous medium. sigma_t: per render unit; unit: render units a scene unit.
 json describe(const V3d& sigma_t, const V3d& albedo, double g, double unit)
 {
     const auto over = [&](double factor) {
@@ -28,7 +28,7 @@ json describe(const V3d& sigma_t, const V3d& albedo, double g, double unit)
     return {{"sigma_t", channels(sigma_t * unit)}, {"mean_free_path", over(1)}, {"transport_mean_free_path", over(1 / (1 - g))}, {"albedo", channels(albedo)}, {"g", g}};
 }
 
-/// per_unit: render units a scene unit.
+/// Null where there are no grains.
 json describe_grains(const World& world, const Progress& progress)
 {
     const double unit = world.space.length(1), back = 1 / unit;
@@ -51,7 +51,7 @@ json describe_grains(const World& world, const Progress& progress)
             {"flight", moments.flight * back},
             {"grain_g", moments.g},
             {"grain_albedo", channels(moments.albedo)},
-            {"walk", {{"scatterings", walk.scatterings}, {"seconds", walk.seconds}, {"void_flight", measured(walk.void_flight, back)}, {"flight", measured(walk.flight, back)}, {"cosine", measured(walk.cosine, 1)}, {"transport_length", measured(walk.transport_length, back)}, {"diffusivity", measured(walk.diffusivity, back * back)}}},
+            {"walk", {{"pack_rate", walked->pack_rate}, {"scatterings", walk.scatterings}, {"seconds", walk.seconds}, {"void_flight", measured(walk.void_flight, back)}, {"flight", measured(walk.flight, back)}, {"cosine", measured(walk.cosine, 1)}, {"transport_length", measured(walk.transport_length, back)}, {"diffusivity", measured(walk.diffusivity, back * back)}}},
             {"forms", forms}};
 }
 
@@ -115,6 +115,7 @@ std::string text_of_media(const nlohmann::json& description)
             text += fmt::format("    {:<28} {}\n", label, number(grains[key]));
         }
         const json& walk = grains["walk"];
+        if (walk["pack_rate"] != grains["pack_rate"]) text += fmt::format("    {:<28} {}\n", "pack rate walked in", number(walk["pack_rate"])); // and of all above that depends on it
         for (const auto& [key, label] : {std::pair{"transport_length", "transport length, by walk"}, {"diffusivity", "diffusivity a scattering"}}) {
             text += fmt::format("    {:<28} {:.6g} +- {:.2g}\n", label, walk[key]["value"].get<double>(), walk[key]["standard_error"].get<double>());
         }

@@ -32,7 +32,7 @@ constexpr double wide = 40; // half its width over its thickness
 
 MediumRegion region(const V3d& lo, const V3d& hi, const ContinuousEquivalent& medium)
 {
-    const TriangleMesh mesh = box(lo, hi);
+    const TriangleMesh mesh = box_mesh(lo, hi);
     MediumRegion region{"slab", {}, mesh.triangles, nullptr, nullptr, true};
     for (const V3d& p : mesh.positions) region.positions.emplace_back(p);
     region.homogeneous = std::make_shared<HomogeneousMedium>(V3d(medium.sigma_t), C3f(V3f(medium.albedo)), medium.g);
@@ -47,7 +47,7 @@ std::unique_ptr<Slab> make_slab(double thickness, double fraction, const GrainTy
     const V3d lo(-half, -half, -0.5 * thickness), hi(half, half, 0.5 * thickness); // a fill is centred on its domain
     slab->world.types.push_back(type);
     if (depth >= 0 || !medium) {
-        const auto fill = std::make_shared<ProceduralFill>(std::make_shared<const Domain>(box(lo, hi), "slab"), sphere_tile(fraction, 1000), FillOptions{1, 0});
+        const auto fill = std::make_shared<ProceduralFill>(std::make_shared<const Domain>(box_mesh(lo, hi), "slab"), sphere_tile(fraction, 1000), FillOptions{1, 0});
         slab->world.fill = std::make_shared<GrainFill>(fill, std::make_shared<SingleMixture>(0), slab->world.space);
         slab->world.domain = fill->domain().bounds();
     }

@@ -49,14 +49,6 @@ std::shared_ptr<const PackingTile> pack(const PackingSample& sample, std::vector
     }
 }
 
-TriangleMesh cube_of(double half)
-{
-    TriangleMesh mesh;
-    for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half);
-    mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-    return mesh;
-}
-
 double mean_of(const std::vector<PackingSample::Grain>& grains)
 {
     double sum = 0;
@@ -95,7 +87,7 @@ BedWalk walk_like(const World& world, const PackingSample& sample, const Progres
         type.exemplar = nullptr; // grains are proxies
         if (!type.gsdf) type.gsdf = world.types[grains.front().type].gsdf; // of no grain
     }
-    const auto fill = std::make_shared<ProceduralFill>(std::make_shared<const Domain>(cube_of(half), "a cube"), tile, FillOptions{1, 0});
+    const auto fill = std::make_shared<ProceduralFill>(std::make_shared<const Domain>(box_mesh(V3d(-half), V3d(half)), "a cube"), tile, FillOptions{1, 0});
     bed.fill = std::make_shared<GrainFill>(fill, std::make_shared<RowMixture>(std::move(types), grains.front().type), bed.space);
     bed.domain = fill->domain().bounds();
     const Tracer tracer(std::make_shared<EmbreeDevice>(), bed);

@@ -18,14 +18,6 @@ VdbMediumOptions vdb_options(const MediumDescription& medium)
     return {medium.density, medium.albedo_grid, medium.g_grid, {medium.sigma_t, medium.albedo, medium.g, medium.nearest}, {}};
 }
 
-TriangleMesh box_mesh(const Imath::Box3d& box)
-{
-    TriangleMesh mesh;
-    for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z);
-    mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-    return mesh;
-}
-
 /// A name for messages: the file's.
 std::string name_of(const MediumDescription& medium) { return (medium.mesh.empty() ? medium.vdb : medium.mesh).filename().string(); }
 
@@ -82,7 +74,7 @@ std::vector<V3d> MediumBuilder::read()
             continue;
         }
         const Imath::Box3d box = vdb_medium_bounds(medium.vdb, vdb_options(medium));
-        meshes_.push_back(box.isEmpty() ? TriangleMesh{} : box_mesh(box));
+        meshes_.push_back(box.isEmpty() ? TriangleMesh{} : box_mesh(box.min, box.max));
     }
     for (const TriangleMesh& mesh : meshes_) points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
     return points;

@@ -1,5 +1,6 @@
 #include "render/scene/region_tracer.h"
 
+#include "ingest/triangle_mesh.h"
 #include "render/grains/triangle.h"
 #include "render/scene/embree_device.h"
 #include "render/scene/embree_ray.h"
@@ -49,12 +50,8 @@ void crossing_filter(const RTCFilterFunctionNArguments* args)
     args->valid[0] = -1;
 }
 
-} // namespace
-
-namespace {
-
-/// Distances within the media from all that a ray may meet there: surfaces, finite lights and the surfaces of media. Grains as well,
-/// but where a medium stands for them: next to a medium that does not, nothing is known to be clear.
+/// Distances within the media from all that a ray may meet there: surfaces, finite lights and the surfaces of media. Nothing is known where it
+/// may meet grains, which is wherever a medium does not stand for them.
 ClearanceField clear_of_everything(const World& world)
 {
     const bool among_grains = world.has_grains() && !std::ranges::all_of(world.regions, &MediumRegion::instead_of_grains);
@@ -69,7 +66,7 @@ ClearanceField clear_of_everything(const World& world)
     std::vector<std::vector<V3f>> corners; // of lights; that of a sphere as of a cube around it
     corners.reserve(world.lights.lights().size());
     static constexpr std::array<std::array<uint32_t, 3>, 2> rectangle{{{0, 1, 2}, {1, 3, 2}}};
-    static constexpr std::array<std::array<uint32_t, 3>, 12> cube{{{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}}};
+    static const TriangleMesh cube = box_mesh(V3d(-1), V3d(1));
     for (const Light& light : world.lights.lights()) {
         if (light.kind == LightKind::rectangle) {
             corners.push_back({V3f(light.corner), V3f(light.corner + light.edge1), V3f(light.corner + light.edge2), V3f(light.corner + light.edge1 + light.edge2)});
@@ -77,8 +74,8 @@ ClearanceField clear_of_everything(const World& world)
         } else if (light.kind == LightKind::sphere) {
             if (box.intersects(Imath::Box3d(light.center - V3d(light.radius), light.center + V3d(light.radius)))) return {}; // a place may be within the cube
             corners.emplace_back();
-            for (int i = 0; i < 8; ++i) corners.back().emplace_back(light.center + light.radius * V3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
-            meshes.push_back({corners.back(), cube});
+            for (const V3d& p : cube.positions) corners.back().emplace_back(light.center + light.radius * p);
+            meshes.push_back({corners.back(), cube.triangles});
         }
     }
     return {meshes, box, {}};

@@ -50,6 +50,14 @@ void TestScene::add_constant_light(float radiance)
     add_light(light);
 }
 
+void TestScene::add_white_environment()
+{
+    Light light;
+    light.kind = LightKind::environment;
+    light.map = std::make_shared<EnvironmentMap>(std::vector<C3f>(16 * 8, C3f(1)), 16, 8, V3d(0, 0, 1), C3f(1));
+    add_light(light);
+}
+
 void TestScene::build()
 {
     double extent = 0;

@@ -33,6 +33,8 @@ public:
     void add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const C3f& albedo, double g, bool instead_of_grains = false);
     void add_light(const Light& light);
     void add_constant_light(float radiance);
+    /// White from everywhere as well, but as a light that is sampled.
+    void add_white_environment();
 
     /// Builds; nothing may be added afterwards. Coordinates are scaled by a power of two so that the grains fill -1..1.
     void build();

@@ -12,9 +12,6 @@ TriangleMesh icosphere(int level);
 /// An axis-aligned box of edges 2 around the origin, 12 triangles.
 TriangleMesh cube();
 
-/// An axis-aligned box between two corners, 12 triangles.
-TriangleMesh box(const Imath::V3d& lo, const Imath::V3d& hi);
-
 /// A flat rectangle from (-half, -half, z) to (half, half, z), facing up.
 TriangleMesh ground(double half, double z);
 

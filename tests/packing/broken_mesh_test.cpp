@@ -40,7 +40,7 @@ TriangleMesh edited(TriangleMesh mesh, const std::function<void(TriangleMesh&)>&
     return mesh;
 }
 
-TriangleMesh unit_box() { return box(V3d(0), V3d(1)); }
+TriangleMesh unit_box() { return box_mesh(V3d(0), V3d(1)); }
 
 /// The same with a vertex of its own for each corner of each face.
 TriangleMesh exploded(const TriangleMesh& mesh)
@@ -129,10 +129,10 @@ std::vector<BrokenMesh> broken_meshes()
                         m.positions.emplace_back(0.5, -1, 2);
                         m.triangles.push_back({4, 8, 5});
                     }), Kind::open, "edge 4-8 from (0, 0, 1) to (0.5, -1, 2) has one face, 12"});
-    list.push_back({"cubes at an edge", glued(cube, box({1, 1, 0}, {2, 2, 1})), Kind::not_manifold,
+    list.push_back({"cubes at an edge", glued(cube, box_mesh({1, 1, 0}, {2, 2, 1})), Kind::not_manifold,
                     "edge 3-7 from (1, 1, 0) to (1, 1, 1) has 4 faces", 2, "where parts of the surface touch"});
-    list.push_back({"cubes at a face", glued(cube, box({1, 0, 0}, {2, 1, 1})), Kind::not_manifold, "has 4 faces"});
-    list.push_back({"cubes at a vertex", glued(cube, box({1, 1, 1}, {2, 2, 2})), Kind::not_manifold,
+    list.push_back({"cubes at a face", glued(cube, box_mesh({1, 0, 0}, {2, 1, 1})), Kind::not_manifold, "has 4 faces"});
+    list.push_back({"cubes at a vertex", glued(cube, box_mesh({1, 1, 1}, {2, 2, 2})), Kind::not_manifold,
                     "at vertex 7 at (1, 1, 1) 2 separate fans of faces meet", 2, "doubled 1 vertex where parts of the surface touch"});
     list.push_back({"duplicate face", edited(cube, [](TriangleMesh& m) { m.triangles.push_back(m.triangles[0]); }), Kind::not_manifold,
                     "edge 0-2 from (0, 0, 0) to (0, 1, 0) has 3 faces (the first of 3 such edges)", 1, "dropped 1 face that was there already"});

@@ -97,7 +97,7 @@ void compare_with_all_triangles(const TriangleMesh& mesh)
 }
 
 /// A cube of edge 200 with a cubic cavity of edge 20 in its middle.
-TriangleMesh hollow_cube() { return joined(box(V3d(-100), V3d(100)), flipped(box(V3d(-10), V3d(10)))); }
+TriangleMesh hollow_cube() { return joined(box_mesh(V3d(-100), V3d(100)), flipped(box_mesh(V3d(-10), V3d(10)))); }
 
 /// Balls in the hollow cube that touch a face, an edge and a corner of the cavity, and a face outside: all in whole numbers.
 const std::vector<Ball> touching = {{{17, 0, 0}, 7}, {{13, 14, 0}, 5}, {{12, 13, 16}, 7}, {{-12, 16, -13}, 7}, {{60, 0, 0}, 40}, {{15, -22, 3}, 13}};
@@ -106,7 +106,7 @@ const std::vector<Ball> touching = {{{17, 0, 0}, 7}, {{13, 14, 0}, 5}, {{12, 13,
 
 TEST(Containment, Sphere) { compare_with_all_triangles(icosphere(3)); }
 TEST(Containment, Torus) { compare_with_all_triangles(torus(1, 0.4, 36, 20)); }
-TEST(Containment, SharpBox) { compare_with_all_triangles(box({-1, -0.5, -0.125}, {1, 0.75, 2})); }
+TEST(Containment, SharpBox) { compare_with_all_triangles(box_mesh({-1, -0.5, -0.125}, {1, 0.75, 2})); }
 TEST(Containment, ThinDoubleWalledShell) { compare_with_all_triangles(double_walled_shell(2, 0.01)); }
 TEST(Containment, OpenWorkedCsgShape) { compare_with_all_triangles(bored_cube(14)); }
 
@@ -150,7 +150,7 @@ TEST(Containment, PointsOfTheSurfaceAreNotInside)
 
 TEST(Containment, WhatIsNoBallIsNotInside)
 {
-    const Domain domain(box(V3d(-1), V3d(1)), "cube");
+    const Domain domain(box_mesh(V3d(-1), V3d(1)), "cube");
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_TRUE(domain.contains_sphere(V3d(0), 0));
     EXPECT_TRUE(domain.contains_sphere(V3d(0), 1));
@@ -169,7 +169,7 @@ TEST(Containment, RaysThroughCornersAndEdges)
     const TriangleMesh octahedron = {{{8, 0, 0}, {-8, 0, 0}, {0, 8, 0}, {0, -8, 0}, {0, 0, 8}, {0, 0, -8}},
                                      {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
     const TriangleMesh hollow = joined(octahedron, flipped(scaled(octahedron, 0.5)));
-    const Domain solid(octahedron, "octahedron"), shell(hollow, "hollow octahedron"), cube(box(V3d(-4), V3d(4)), "cube");
+    const Domain solid(octahedron, "octahedron"), shell(hollow, "hollow octahedron"), cube(box_mesh(V3d(-4), V3d(4)), "cube");
     for (int x = -9; x <= 9; ++x)
         for (int y = -9; y <= 9; ++y)
             for (int z = -9; z <= 9; ++z) {

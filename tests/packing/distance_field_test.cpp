@@ -72,7 +72,7 @@ TEST(DistanceField, IsNeverWrong)
 {
     expect_right(icosphere(3), 64, 50'000);
     expect_right(torus(1, 0.4, 48, 24), 100, 30'000);
-    expect_right(box({-1, -0.5, -0.125}, {1, 0.75, 2}), 50, 50'000);
+    expect_right(box_mesh({-1, -0.5, -0.125}, {1, 0.75, 2}), 50, 50'000);
     expect_right(bored_cube(24), 90, 50'000);
 }
 
@@ -80,7 +80,7 @@ TEST(DistanceField, IsNeverWrongAtWallsThinnerThanAVoxel)
 {
     expect_right(double_walled_shell(3, 0.01), 64, 50'000);
     expect_right(double_walled_shell(2, 1e-5), 64, 50'000);
-    expect_right(joined(box(V3d(0), V3d(1, 1, 1e-3)), box(V3d(0, 0, 0.002), V3d(1, 1, 0.003))), 40, 50'000);
+    expect_right(joined(box_mesh(V3d(0), V3d(1, 1, 1e-3)), box_mesh(V3d(0, 0, 0.002), V3d(1, 1, 0.003))), 40, 50'000);
 }
 
 TEST(DistanceField, AnyScaleAndPlaceWillDo)
@@ -89,7 +89,7 @@ TEST(DistanceField, AnyScaleAndPlaceWillDo)
     for (const double scale : {0x1p-900, 0x1p-60, 0x1p60, 0x1p900}) expect_right(scaled(mesh, scale), 40, 4000);
     expect_right(moved(mesh, {1e7, -1e6, 1e5}), 40, 20'000);
     // As far as doubles are a hundredth of the size apart.
-    expect_right(moved(box(V3d(0), V3d(64)), {0x1p52, 0x1p52, 0}), 30, 4000, false);
+    expect_right(moved(box_mesh(V3d(0), V3d(64)), {0x1p52, 0x1p52, 0}), 30, 4000, false);
 }
 
 TEST(DistanceField, FewCellsAreRoughAndRight)
@@ -115,7 +115,7 @@ TEST(DistanceField, TellsTheSignAwayFromTheSurface)
 
 TEST(DistanceField, RefusesSenselessCells)
 {
-    const Domain domain(box(V3d(0), V3d(1)), "cube");
+    const Domain domain(box_mesh(V3d(0), V3d(1)), "cube");
     EXPECT_THROW(DistanceField(domain, 0), InputError);
     EXPECT_THROW(DistanceField(domain, 1 << 20), InputError);
 }

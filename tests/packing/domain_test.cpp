@@ -41,7 +41,7 @@ void expect_solid(const TriangleMesh& mesh, double volume)
 
 TEST(Domain, AcceptsCavitiesIslandsAndSeveralPieces)
 {
-    const TriangleMesh cube = box(V3d(0), V3d(4)), small = box(V3d(1), V3d(3)), smaller = box(V3d(1.5), V3d(2.5));
+    const TriangleMesh cube = box_mesh(V3d(0), V3d(4)), small = box_mesh(V3d(1), V3d(3)), smaller = box_mesh(V3d(1.5), V3d(2.5));
     expect_solid(cube, 64);
     expect_solid(joined(cube, flipped(small)), 56);
     expect_solid(joined(joined(cube, flipped(small)), smaller), 57);
@@ -54,15 +54,15 @@ TEST(Domain, AcceptsCavitiesIslandsAndSeveralPieces)
 
 TEST(Domain, UnusedVerticesAndHugeCoordinatesAreNoDefects)
 {
-    TriangleMesh mesh = box(V3d(0), V3d(1));
+    TriangleMesh mesh = box_mesh(V3d(0), V3d(1));
     mesh.positions.emplace_back(std::numeric_limits<double>::quiet_NaN());
     const Domain domain(mesh, "cube");
     EXPECT_EQ(domain.bounds().max, V3d(1));
     EXPECT_EQ(domain.volume(), 1);
     EXPECT_TRUE(domain.contains(V3d(0.5)));
 
-    EXPECT_EQ(Domain(box(V3d(-1e300), V3d(1e300)), "huge").volume(), HUGE_VAL); // 8e900 is no double
-    EXPECT_NEAR(Domain(box(V3d(-1e100), V3d(1e100)), "large").volume() / 8e300, 1, 1e-14);
+    EXPECT_EQ(Domain(box_mesh(V3d(-1e300), V3d(1e300)), "huge").volume(), HUGE_VAL); // 8e900 is no double
+    EXPECT_NEAR(Domain(box_mesh(V3d(-1e100), V3d(1e100)), "large").volume() / 8e300, 1, 1e-14);
     mesh.positions[7] = V3d(1e300);
     const Domain spike(mesh, "spike");
     EXPECT_TRUE(spike.contains(V3d(1e299)));

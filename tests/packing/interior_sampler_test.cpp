@@ -133,14 +133,14 @@ void expect_all_inside(const InteriorSampler& sampler, const Domain& domain)
 const std::vector<std::pair<std::string, TriangleMesh>>& solids()
 {
     static const std::vector<std::pair<std::string, TriangleMesh>> list = {
-        {"box", box({-1, 2, 3}, {4, 5, 7})},
+        {"box", box_mesh({-1, 2, 3}, {4, 5, 7})},
         {"sphere", icosphere(3)},
         {"torus", torus(1, 0.4, 40, 24)},
-        {"hollow cube", joined(box(V3d(-1), V3d(1)), flipped(box(V3d(-0.5), V3d(0.75))))},
+        {"hollow cube", joined(box_mesh(V3d(-1), V3d(1)), flipped(box_mesh(V3d(-0.5), V3d(0.75))))},
         {"shell with a ball in it", joined(double_walled_shell(2, 0.2), scaled(icosphere(2), 0.5))},
         {"thin shell", double_walled_shell(3, 0.003)},
         {"two pieces", joined(icosphere(1), moved(icosphere(2), {3, 0, 0}))},
-        {"pieces that touch at a corner", joined(box(V3d(0), V3d(1)), box(V3d(1), V3d(2)))},
+        {"pieces that touch at a corner", joined(box_mesh(V3d(0), V3d(1)), box_mesh(V3d(1), V3d(2)))},
         {"bored cube", bored_cube(20)},
         {"far from the origin", moved(icosphere(2), {1e6, -1e5, 1e4})},
     };
@@ -215,7 +215,7 @@ TEST_P(FailingTetGen, FallsBackAndSaysWhy)
     const Script program(GetParam().script);
     TetgenOptions options;
     options.program = program.path();
-    const TriangleMesh mesh = joined(box(V3d(-1), V3d(1)), flipped(box(V3d(-0.5), V3d(0.75))));
+    const TriangleMesh mesh = joined(box_mesh(V3d(-1), V3d(1)), flipped(box_mesh(V3d(-0.5), V3d(0.75))));
     const Domain domain(mesh, "hollow cube");
     const InteriorSampler sampler(domain, options);
     EXPECT_FALSE(sampler.by_tetgen());
@@ -228,7 +228,7 @@ TEST(WithoutTetGen, PointsAreUniformToo)
 {
     TetgenOptions options;
     options.program = "/nonexistent";
-    for (const TriangleMesh& mesh : {joined(box(V3d(-1), V3d(1)), flipped(box(V3d(-0.5), V3d(0.75)))), torus(1, 0.4, 24, 16)}) {
+    for (const TriangleMesh& mesh : {joined(box_mesh(V3d(-1), V3d(1)), flipped(box_mesh(V3d(-0.5), V3d(0.75)))), torus(1, 0.4, 24, 16)}) {
         const Domain domain(mesh, "solid");
         const InteriorSampler sampler(domain, options);
         ASSERT_FALSE(sampler.by_tetgen());

@@ -84,16 +84,16 @@ TEST(SurfaceCells, Sphere) { EXPECT_LE(compare(icosphere(5), 0.002), 0); }
 TEST(SurfaceCells, Torus) { compare(torus(1, 0.4, 120, 60), 0.003); }
 TEST(SurfaceCells, CoarseTorus) { compare(torus(1, 0.4, 12, 6), 0.01); }
 // Acute edges and corners, where neighbours' normals differ most.
-TEST(SurfaceCells, Box) { EXPECT_LE(compare(box({-1, -0.5, -0.125}, {1, 0.75, 2}), 0.01), 0); }
+TEST(SurfaceCells, Box) { EXPECT_LE(compare(box_mesh({-1, -0.5, -0.125}, {1, 0.75, 2}), 0.01), 0); }
 TEST(SurfaceCells, Needle) { compare({{{0, 0, 0}, {1, 0, 0}, {0.5, 0.05, 0}, {0.5, 0.01, 8}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}}, 0.001); }
 TEST(SurfaceCells, ThinDoubleWalledShell) { compare(double_walled_shell(4, 0.01), 0.002); }
 TEST(SurfaceCells, OpenWorkedCsgShape) { compare(bored_cube(40), 0.004); }
 TEST(SurfaceCells, PiecesThatTouch)
 {
-    const TriangleMesh cube = box(V3d(0), V3d(4));
+    const TriangleMesh cube = box_mesh(V3d(0), V3d(4));
     compare(joined(cube, moved(cube, {4, 4, 4})), 0.01);
     compare(joined(cube, moved(cube, {4, 4, 0})), 0.01);
-    compare(joined(cube, flipped(box(V3d(1), V3d(3)))), 0.01);
+    compare(joined(cube, flipped(box_mesh(V3d(1), V3d(3)))), 0.01);
 }
 // Where the cells would hold too many triangles, or the balls are too large for any: the domain answers.
 TEST(SurfaceCells, BallsThatAreLargeBesideTheTriangles) { compare(icosphere(6), 0.05); }
@@ -102,7 +102,7 @@ TEST(SurfaceCells, BallsThatAreLargeBesideTheSolid) { compare(icosphere(3), 0.4)
 TEST(SurfaceCells, FarFromTheOrigin)
 {
     for (const double far : {0x1p10, 0x1p24, 0x1p40}) {
-        const TriangleMesh cube = joined(box(V3d(-100), V3d(100)), flipped(box(V3d(-10), V3d(10))));
+        const TriangleMesh cube = joined(box_mesh(V3d(-100), V3d(100)), flipped(box_mesh(V3d(-10), V3d(10))));
         compare(moved(cube, V3d(far, -far, 2 * far)), 0.01);
     }
 }

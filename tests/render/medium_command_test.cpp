@@ -26,7 +26,7 @@ protected:
     {
         std::filesystem::create_directory(folder_.path("cache"));
         setenv("SCREE_CACHE", folder_.path("cache").c_str(), 1);
-        write("slab.obj", obj_text(box({-4, -4, -1}, {4, 4, 0})));
+        write("slab.obj", obj_text(box_mesh({-4, -4, -1}, {4, 4, 0})));
     }
     ~MediumCommand() override { unsetenv("SCREE_CACHE"); }
 

@@ -116,10 +116,7 @@ TEST(GrainMediumFurnace, IsWhite)
         for (const PackedSphere& s : push_apart(4000, 0.6, 0.5, 0.05, 5)) scene->add_grain(s.center, s.radius, i++ % 2 ? glass : white);
     }
     constant.add_constant_light(1);
-    Light environment;
-    environment.kind = LightKind::environment;
-    environment.map = std::make_shared<EnvironmentMap>(std::vector<C3f>(16 * 8, C3f(1)), 16, 8, V3d(0, 0, 1), C3f(1));
-    sampled.add_light(environment);
+    sampled.add_white_environment();
     constant.build();
     sampled.build();
     const Cored dark(constant, 2), bright(sampled, 2);

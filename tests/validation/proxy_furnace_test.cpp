@@ -58,10 +58,7 @@ TEST_P(ProxyFurnace, IsWhite)
         scene->add_grains(bed(), type);
     }
     constant.add_constant_light(1);
-    Light environment;
-    environment.kind = LightKind::environment;
-    environment.map = std::make_shared<EnvironmentMap>(std::vector<C3f>(16 * 8, C3f(1)), 16, 8, V3d(0, 0, 1), C3f(1));
-    sampled.add_light(environment);
+    sampled.add_white_environment();
     constant.build();
     sampled.build();
     for (const uint32_t explicit_grains : {0u, 2u}) {
