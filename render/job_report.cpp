@@ -85,6 +85,7 @@ std::string statistics_text(const FrameReport& report)
     text += fmt::format("  {} segments ({:.3f} million a second), {} shadow rays, {:.2f} segments a path, longest {}\n", s.segments,
                         1e-6 * per_second(s.segments, s.seconds), s.shadow_rays, static_cast<double>(s.segments) / static_cast<double>(std::max<uint64_t>(1, s.paths)), s.longest);
     if (s.events > 0) text += fmt::format("  {} scatterings in media ({:.3f} million a second)\n", s.events, 1e-6 * per_second(s.events, s.seconds));
+    if (s.shells > 0) text += fmt::format("  {} shells ({:.3f} million a second)\n", s.shells, 1e-6 * per_second(s.shells, s.seconds));
     text += fmt::format("  {} samples not finite, {} rays lost between triangles, peak memory {}\n", s.non_finite, s.leaks, bytes_text(peak_memory()));
     return text;
 }
@@ -101,7 +102,7 @@ std::string statistics_json(const std::vector<FrameReport>& reports, const std::
         }
         frames.push_back({{"frame", report.frame}, {"particles", report.name}, {"grains", report.grains}, {"parts", parts},
                           {"setup_seconds", report.setup_seconds}, {"render_seconds", s.seconds}, {"spp", s.spp}, {"paths", s.paths},
-                          {"segments", s.segments}, {"shadow_rays", s.shadow_rays}, {"medium_events", s.events}, {"longest_path", s.longest},
+                          {"segments", s.segments}, {"shadow_rays", s.shadow_rays}, {"medium_events", s.events}, {"shells", s.shells}, {"longest_path", s.longest},
                           {"segments_per_second", per_second(s.segments, s.seconds)}, {"non_finite", s.non_finite}, {"leaks", s.leaks},
                           {"cut", s.cut}, {"stopped", s.stopped}, {"cancelled", s.cancelled}, {"timed_out", s.timed_out}});
     }

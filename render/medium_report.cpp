@@ -86,7 +86,7 @@ nlohmann::json describe_media(const SceneDescription& scene, size_t frame, const
     for (const MediumRegion& region : world->regions) {
         json medium;
         if (region.homogeneous) {
-            medium = describe(region.homogeneous->sigma_t(), V3d(region.homogeneous->albedo()), region.homogeneous->g(), unit);
+            medium = describe(region.homogeneous->sigma_t(), V3d(region.homogeneous->albedo()), region.homogeneous->phase().mean_cosine(), unit);
         } else {
             const Imath::Box3d box = region.grid->bounds();
             medium["largest_sigma_t"] = region.grid->largest_sigma_t() * unit;

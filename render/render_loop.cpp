@@ -27,6 +27,7 @@ void add(RenderStatistics& total, const RenderStatistics& part)
     total.segments += part.segments;
     total.shadow_rays += part.shadow_rays;
     total.events += part.events;
+    total.shells += part.shells;
     total.non_finite += part.non_finite;
     total.leaks += part.leaks;
     total.cut += part.cut;
@@ -56,6 +57,7 @@ bool render_tile(const World& world, const Tracer& tracer, const Camera& camera,
                 part.segments += path.segments;
                 part.shadow_rays += path.shadow_rays;
                 part.events += path.events;
+                part.shells += path.shells;
                 part.leaks += path.leaks;
                 part.cut += path.cut;
                 part.longest = std::max(part.longest, path.segments);

@@ -25,6 +25,7 @@ struct SamplePlace {
 
 struct RenderStatistics {
     uint64_t paths = 0, segments = 0, shadow_rays = 0, events = 0; ///< events: scatterings in media
+    uint64_t shells = 0;       ///< of media, gone through in one step
     uint64_t non_finite = 0;  ///< samples dropped for not being finite
     uint64_t leaks = 0;       ///< rays that rounding let out of a mesh between two of its triangles
     uint64_t stopped = 0;     ///< paths given up because time ran out or the user stopped

@@ -1,7 +1,6 @@
 // Volumetric path tracing: a path among media, and what it does where one scatters it.
 
 #include "render/integrators/path.h"
-#include "render/medium/phase_function.h"
 #include "render/warp.h"
 
 #include <bit>
@@ -57,6 +56,7 @@ C3f Path::media_transmittance(RegionSet regions, const V3d& o, const V3d& d, dou
 
 bool Path::step_through_media(Hit& met)
 {
+    if (const std::optional<bool> alive = step_through_shell(met)) return *alive;
     if (regions_ != 0) { // far from everything there is nothing to meet but the medium
         const double clear = media_->clearance(o_);
         if (clear > passed_) {
@@ -138,24 +138,14 @@ bool Path::handle_medium(const MediumEvent& event, Hit& met)
     weight_ *= event.albedo;
     if (!survives()) return false;
     o_ = met.point;
-    if (world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only) add_medium_light(event.g);
+    if (world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only) add_phase_light(o_, d_, event.phase, C3f(1));
 
     const double u = sampler_.next(), phi = 2 * pi * sampler_.next();
-    const double cosine = sample_henyey_greenstein(event.g, u), sine = safe_sqrt(1 - cosine * cosine);
+    const double cosine = event.phase.sample(u), sine = safe_sqrt(1 - cosine * cosine);
     const V3d w = Frame(d_).to_world({sine * std::cos(phi), sine * std::sin(phi), cosine});
-    last_ = {false, pdf_henyey_greenstein(event.g, cosine), o_};
+    last_ = {false, event.phase.pdf(cosine), o_};
     start_ray(o_, w.normalized(), {});
     return true;
-}
-
-void Path::add_medium_light(double g)
-{
-    const double u0 = sampler_.next(), u1 = sampler_.next(), u2 = sampler_.next();
-    const LightSample light = world_.lights.sample(o_, u0, u1, u2);
-    if (!light.valid) return;
-    const double phase = pdf_henyey_greenstein(g, d_.dot(light.direction));
-    const C3f passed = passing(o_, light.direction, light.distance, {}, light.light, regions_);
-    if (!is_black(passed)) add_light_sample(light, light.distance, C3f(static_cast<float>(phase)), phase, passed);
 }
 
 C3f Path::passing(const V3d& o, const V3d& d, double distance, const Place& from, uint32_t light, RegionSet regions)

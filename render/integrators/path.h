@@ -5,7 +5,11 @@
 #include "render/gsdf/encounter.h"
 #include "render/integrators/path_tracer.h"
 
+#include <optional>
+
 namespace scree {
+
+struct FittingShell;
 
 /// Power heuristic for two strategies of one sample each.
 inline double mis_weight(double p, double other) { return p * p / (p * p + other * other); }
@@ -54,6 +58,19 @@ private:
     C3f passing(const V3d& o, const V3d& d, double distance, const Place& from, uint32_t light, RegionSet regions);
     C3f passing_media(V3d o, const V3d& d, double distance, Place from, uint32_t light, RegionSet regions);
 
+    // Through shells (shell_vertex.cpp).
+    /// Goes to the surface of the largest shell that fits around the path's place; whether the path goes on, or nothing where none fits.
+    std::optional<bool> step_through_shell(Hit& met);
+    bool diffuse_through(const FittingShell& shell, Hit& met);
+    /// Leaves a place by the cosine to the normal; light_weight: of light sampled there, 0 for none.
+    bool leave_by_cosine(const V3d& place, const V3d& normal, float light_weight);
+    /// Light that one of the shell's scatterings brings, for all of them; scale: of a mean free path.
+    void add_event_light(const FittingShell& shell, double scale, double weight);
+    /// Light that the first scattering in the shell brings.
+    void add_single_light(const FittingShell& shell, double weight);
+    /// Light that a phase function at a place scatters, of a way that came along `before`.
+    void add_phase_light(const V3d& place, const V3d& before, const PhaseFunction& phase, const C3f& weight);
+
     void start_ray(const V3d& o, const V3d& d, const Place& from)
     {
         o_ = o;
@@ -70,7 +87,6 @@ private:
     bool handle_proxy(const Hit& hit);
     bool misses_proxy(const Hit& hit);
     bool handle_medium(const MediumEvent& event, Hit& met);
-    void add_medium_light(double g);
 
     void add(const C3f& light) { result_.radiance += weight_ * spectral_.weight() * light; }
     /// Russian roulette: kills with the weight's largest channel, and only what has lost some.

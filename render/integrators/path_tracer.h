@@ -36,7 +36,8 @@ struct PathResult {
     FirstHit first;
     uint32_t segments = 0; ///< rays traced, shadow rays not counted
     uint32_t shadow_rays = 0;
-    uint32_t events = 0;   ///< scatterings in media
+    uint32_t events = 0;   ///< scatterings in media, those within shells not counted
+    uint32_t shells = 0;   ///< gone through in one step
     uint32_t leaks = 0;    ///< rays inside a mesh that rounding let escape
     bool cut = false;      ///< by max_depth
     bool stopped = false;  ///< by PathOptions::stop: no sample

@@ -1,19 +1,9 @@
 #pragma once
 
 #include "render/gsdf/gsdf.h"
-
-#include <array>
+#include "render/medium/cosine_table.h"
 
 namespace scree {
-
-/// Cosines of scattering angles in bins of equal width from -1 to 1: the phase function of a table.
-struct CosineTable {
-    static constexpr uint32_t bins = 64;
-    std::array<double, bins> density{}; ///< per unit of cosine; integrates to 1
-
-    static uint32_t bin(double cosine) { return static_cast<uint32_t>(std::clamp(0.5 * (cosine + 1) * bins, 0.0, bins - 1.0)); }
-    static constexpr double width() { return 2.0 / bins; }
-};
 
 /// What one encounter with a grain does to light in the mean over impacts and rotations, in radii of the bounding sphere.
 ///

@@ -303,7 +303,7 @@ MediumEvent GridMedium::event(const V3d& o, const V3d& d, double t0, double t1, 
     event.t = *t;
     const V3d p = o + d * event.t;
     event.albedo = data_->albedo_at(p);
-    event.g = data_->g_at(p);
+    event.phase = PhaseFunction(data_->g_at(p));
     return event;
 }
 

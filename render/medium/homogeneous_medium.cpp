@@ -2,7 +2,12 @@
 
 namespace scree {
 
-HomogeneousMedium::HomogeneousMedium(const Imath::V3d& sigma_t, const C3f& albedo, double g) : sigma_t_(sigma_t), albedo_(albedo), g_(g) {}
+HomogeneousMedium::HomogeneousMedium(const Imath::V3d& sigma_t, const C3f& albedo, double g) : sigma_t_(sigma_t), albedo_(albedo), phase_(g) {}
+
+HomogeneousMedium::HomogeneousMedium(const Imath::V3d& sigma_t, const C3f& albedo, std::shared_ptr<const PhaseTable> table)
+    : sigma_t_(sigma_t), albedo_(albedo), table_(std::move(table)), phase_(table_.get())
+{
+}
 
 MediumEvent HomogeneousMedium::event(double t0, double t1, SpectralState& state, Sampler& sampler) const
 {
@@ -20,7 +25,7 @@ MediumEvent HomogeneousMedium::event(double t0, double t1, SpectralState& state,
         }
         state.multiply(factor);
     }
-    return {scattered, t, albedo_, g_};
+    return {scattered, t, albedo_, phase_};
 }
 
 C3f HomogeneousMedium::transmittance(double length) const

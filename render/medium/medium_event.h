@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/math.h"
+#include "render/medium/phase_function.h"
 
 namespace scree {
 
@@ -9,7 +10,7 @@ struct MediumEvent {
     bool scattered = false;
     double t = 0;    ///< along the ray, if it scattered
     C3f albedo{1};   ///< there: part of the light that is not absorbed
-    double g = 0;    ///< there: asymmetry of the phase function of Henyey and Greenstein
+    PhaseFunction phase; ///< there
 };
 
 /// One walk for three channels where sigma_t depends on them: it is drawn for one, the hero, and weighed by the one-sample

@@ -1,6 +1,9 @@
 #pragma once
 
 #include "render/math.h"
+#include "render/medium/cosine_table.h"
+
+#include <array>
 
 namespace scree {
 
@@ -20,5 +23,41 @@ inline double pdf_henyey_greenstein(double g, double cosine)
     const double b = (1 - g) * (1 - g) + 2 * g * (1 - cosine);
     return (1 - g * g) / (4 * pi * b * std::sqrt(b));
 }
+
+/// A tabulated phase function, constant over each bin of the cosine.
+class PhaseTable {
+public:
+    /// Throws InputError for a table that is not a density.
+    explicit PhaseTable(const CosineTable& table);
+
+    double sample(double u) const;
+    double pdf(double cosine) const { return table_.density[CosineTable::bin(cosine)] / (2 * pi); }
+    double mean_cosine() const { return mean_cosine_; }
+    const CosineTable& table() const { return table_; }
+
+private:
+    CosineTable table_;
+    double mean_cosine_ = 0;
+    std::array<double, CosineTable::bins> cumulated_{}; ///< to each bin's end
+};
+
+/// A phase function that depends on the angle alone: Henyey and Greenstein's, or a tabulated one, which must outlive this.
+class PhaseFunction {
+public:
+    PhaseFunction() = default; ///< isotropic
+    /// Of Henyey and Greenstein; -1 < g < 1.
+    explicit PhaseFunction(double g) : g_(g) {}
+    explicit PhaseFunction(const PhaseTable* table) : g_(table->mean_cosine()), table_(table) {}
+
+    /// A cosine, by u in 0..1.
+    double sample(double u) const { return table_ ? table_->sample(u) : sample_henyey_greenstein(g_, u); }
+    /// Its density per solid angle.
+    double pdf(double cosine) const { return table_ ? table_->pdf(cosine) : pdf_henyey_greenstein(g_, cosine); }
+    double mean_cosine() const { return g_; }
+
+private:
+    double g_ = 0;
+    const PhaseTable* table_ = nullptr;
+};
 
 } // namespace scree

@@ -1,6 +1,5 @@
 #include "render/scene/region_tracer.h"
 
-#include "ingest/triangle_mesh.h"
 #include "render/grains/triangle.h"
 #include "render/scene/embree_device.h"
 #include "render/scene/embree_ray.h"
@@ -50,37 +49,6 @@ void crossing_filter(const RTCFilterFunctionNArguments* args)
     args->valid[0] = -1;
 }
 
-/// Distances within the media from all that a ray may meet there: surfaces, finite lights and the surfaces of media. Nothing is known where it
-/// may meet grains, which is wherever a medium does not stand for them.
-ClearanceField clear_of_everything(const World& world)
-{
-    const bool among_grains = world.has_grains() && !std::ranges::all_of(world.regions, &MediumRegion::instead_of_grains);
-    if (among_grains) return {};
-    std::vector<TriangleView> meshes;
-    Imath::Box3d box;
-    for (const MediumRegion& region : world.regions) {
-        meshes.push_back({region.positions, region.triangles});
-        for (const V3f& p : region.positions) box.extendBy(V3d(p));
-    }
-    for (const Surface& surface : world.surfaces) meshes.push_back({surface.positions, surface.triangles});
-    std::vector<std::vector<V3f>> corners; // of lights; that of a sphere as of a cube around it
-    corners.reserve(world.lights.lights().size());
-    static constexpr std::array<std::array<uint32_t, 3>, 2> rectangle{{{0, 1, 2}, {1, 3, 2}}};
-    static const TriangleMesh cube = box_mesh(V3d(-1), V3d(1));
-    for (const Light& light : world.lights.lights()) {
-        if (light.kind == LightKind::rectangle) {
-            corners.push_back({V3f(light.corner), V3f(light.corner + light.edge1), V3f(light.corner + light.edge2), V3f(light.corner + light.edge1 + light.edge2)});
-            meshes.push_back({corners.back(), rectangle});
-        } else if (light.kind == LightKind::sphere) {
-            if (box.intersects(Imath::Box3d(light.center - V3d(light.radius), light.center + V3d(light.radius)))) return {}; // a place may be within the cube
-            corners.emplace_back();
-            for (const V3d& p : cube.positions) corners.back().emplace_back(light.center + light.radius * p);
-            meshes.push_back({corners.back(), cube.triangles});
-        }
-    }
-    return {meshes, box, {}};
-}
-
 } // namespace
 
 struct RegionTracer::Impl {
@@ -128,7 +96,7 @@ RegionTracer::RegionTracer(std::shared_ptr<const EmbreeDevice> device, const Wor
     for (size_t i = 0; i < world.regions.size(); ++i) {
         if (world.regions[i].instead_of_grains) instead_of_grains_ |= RegionSet{1} << i;
     }
-    clearance_ = clear_of_everything(world);
+    clearance_ = world.clearance ? *world.clearance : ClearanceField();
 }
 
 RegionTracer::~RegionTracer() = default;

@@ -7,6 +7,7 @@
 #include "render/lights/light.h"
 #include "render/materials/material.h"
 #include "render/math.h"
+#include "render/medium/clearance_field.h"
 #include "render/medium/medium_region.h"
 #include "render/scene/render_space.h"
 
@@ -46,6 +47,7 @@ struct World {
     std::vector<GrainType> types;
     std::vector<Surface> surfaces;
     std::vector<MediumRegion> regions;
+    std::shared_ptr<const ClearanceField> clearance; ///< within the regions, from all that may be met there; null: nothing is known
     LightSet lights;
     uint64_t replaced_grains = 0; ///< that are no longer there, as a medium stands for all of them
 

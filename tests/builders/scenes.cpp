@@ -1,5 +1,7 @@
 #include "tests/builders/scenes.h"
 
+#include "render/scene/shell_builder.h"
+
 namespace scree {
 
 TestScene::TestScene() : device_(std::make_shared<EmbreeDevice>()) {}
@@ -88,7 +90,7 @@ void TestScene::build()
         world_.surfaces.push_back(std::move(surface));
     }
     for (const Medium& medium : media_) {
-        MediumRegion region{"medium", {}, medium.mesh.triangles, nullptr, nullptr, medium.instead_of_grains};
+        MediumRegion region{"medium", {}, medium.mesh.triangles, nullptr, nullptr, nullptr, medium.instead_of_grains};
         for (const V3d& p : medium.mesh.positions) region.positions.emplace_back(space.point(p));
         region.homogeneous = std::make_shared<HomogeneousMedium>(medium.sigma_t * space.world_length(1), medium.albedo, medium.g);
         world_.regions.push_back(std::move(region));
@@ -108,6 +110,13 @@ void TestScene::build()
         }
     }
     world_.lights = LightSet(lights_, 1.8);
+    world_.clearance = make_clearance(world_, Progress());
+    if (shells_) {
+        static StfCache cache{{}}; // of all tests of a program
+        std::vector<PartReport> parts;
+        std::vector<std::string> remarks;
+        add_shells(*shells_, cache, world_, parts, remarks, Progress());
+    }
     tracer_ = std::make_unique<Tracer>(device_, world_);
 }
 

@@ -4,9 +4,11 @@
 #include "render/gsdf/gsdf_builder.h"
 #include "render/scene/tracer.h"
 #include "render/scene/world.h"
+#include "render/stf/stf_form.h"
 #include "tests/builders/packings.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +38,9 @@ public:
     /// White from everywhere as well, but as a light that is sampled.
     void add_white_environment();
 
+    /// Light goes through shells in the media, where they fit.
+    void use_shells(StfForm form = StfForm::full) { shells_ = form; }
+
     /// Builds; nothing may be added afterwards. Coordinates are scaled by a power of two so that the grains fill -1..1.
     void build();
 
@@ -63,6 +68,7 @@ private:
     };
     std::vector<Medium> media_;
     std::vector<Light> lights_;
+    std::optional<StfForm> shells_;
     std::unique_ptr<Tracer> tracer_;
 };
 

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "render/scene/part_report.h"
+#include "render/scene/world.h"
+#include "render/stf/stf_cache.h"
+#include "render/stf/stf_form.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace scree {
+
+/// Distances within the media of a world from all that a ray may meet there, or null where nothing is known: no media, or grains among them.
+std::shared_ptr<const ClearanceField> make_clearance(const World& world, const Progress& progress);
+
+/// Gives the media of a world the shells that light may go through in them, after make_clearance(): of each no more than fit and pay.
+///
+/// Reports what was built, or why nothing was. Throws Cancelled.
+void add_shells(StfForm form, StfCache& cache, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress);
+
+} // namespace scree

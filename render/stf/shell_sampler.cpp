@@ -1,0 +1,29 @@
+#include "render/stf/shell_sampler.h"
+
+namespace scree {
+
+namespace {
+
+/// Weights times albedo^events, and their sum.
+template <class Record>
+std::vector<double> weigh(const std::vector<Record>& records, const std::vector<float>& weights, double albedo, double& sum)
+{
+    std::vector<double> weighed(records.size());
+    sum = 0;
+    for (size_t i = 0; i < records.size(); ++i) {
+        weighed[i] = weights[i] * std::pow(albedo, records[i].events);
+        sum += weighed[i];
+    }
+    return weighed;
+}
+
+} // namespace
+
+ShellSampler::ShellSampler(const StfShell& shell, double albedo) : shell_(&shell)
+{
+    exits_ = AliasTable(weigh(shell.exits, shell.exit_weights, albedo, survival_));
+    events_ = AliasTable(weigh(shell.events, shell.event_weights, albedo, event_weight_));
+    event_weight_ *= shell.event_sum;
+}
+
+} // namespace scree

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "render/alias_table.h"
+#include "render/stf/stf.h"
+
+namespace scree {
+
+/// Draws from the records of a shell as they count in a medium of one albedo.
+class ShellSampler {
+public:
+    /// 0 <= albedo <= 1. The shell must outlive this.
+    ShellSampler(const StfShell& shell, double albedo);
+
+    double radius() const { return shell_->radius; }
+    /// What is left of the walks that scatter: the mean of albedo^events.
+    double survival() const { return survival_; }
+    /// An exit by its share of what is left; u uniform in (0, 1).
+    const ShellExit& exit(double u) const { return shell_->exits[exits_.sample(u)]; }
+
+    /// Mean over walks that scatter of the sum over their scatterings of closeness times albedo^events.
+    double event_weight() const { return event_weight_; }
+    /// A scattering by its share of that sum.
+    const ShellEvent& event(double u) const { return shell_->events[events_.sample(u)]; }
+    double closeness(const ShellEvent& event) const { return shell_->closeness(event); }
+
+private:
+    const StfShell* shell_;
+    AliasTable exits_, events_;
+    double survival_ = 0, event_weight_ = 0;
+};
+
+} // namespace scree

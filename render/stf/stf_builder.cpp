@@ -1,0 +1,110 @@
+#include "render/stf/stf_builder.h"
+
+#include "ingest/support/error.h"
+#include "render/stf/shell_walk.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <numeric>
+
+namespace scree {
+
+namespace {
+
+/// The walks of a shell; a walk that does not scatter is made again.
+std::vector<ShellWalk> walk_all(const PhaseFunction& phase, size_t shell, std::span<const ShellSampler> smaller, const StfOptions& options, const Progress& progress)
+{
+    std::vector<ShellWalk> walks(options.walks);
+    constexpr uint64_t block = 1024;
+    tbb::parallel_for(uint64_t{0}, (options.walks + block - 1) / block, [&](uint64_t b) {
+        if (progress.cancelled()) return;
+        for (uint64_t i = b * block; i < std::min(options.walks, (b + 1) * block); ++i) {
+            Sampler sampler(options.seed, static_cast<uint32_t>(i), static_cast<uint32_t>(shell), 0x5f3759u);
+            do walks[i] = walk_in_shell(phase, Stf::radius(shell), smaller, sampler);
+            while (walks[i].exit.events == 0);
+        }
+    });
+    if (progress.cancelled()) throw Cancelled();
+    return walks;
+}
+
+/// Keeps `count` of the records, evenly by their mass among those of a like number of events and a like place; what leaves after few events is
+/// kept more often than by its mass (half of all evenly over the logarithm of the quantile), as it counts for more where light is absorbed.
+template <class Record, class Place>
+void thin(const std::vector<Record>& records, const std::vector<double>& mass, uint32_t count, const Place& place, std::vector<Record>& kept, std::vector<float>& weights)
+{
+    std::vector<uint32_t> order(records.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::sort(order, [&](uint32_t a, uint32_t b) {
+        if (records[a].events != records[b].events) return records[a].events < records[b].events;
+        return place(records[a]) != place(records[b]) ? place(records[a]) < place(records[b]) : a < b;
+    });
+    constexpr size_t alike = 128;
+    for (size_t i = 0; i < order.size(); i += alike) {
+        const auto first = order.begin() + static_cast<std::ptrdiff_t>(i), last = order.begin() + static_cast<std::ptrdiff_t>(std::min(i + alike, order.size()));
+        std::sort(first, last, [&](uint32_t a, uint32_t b) { return place(records[a]) != place(records[b]) ? place(records[a]) < place(records[b]) : a < b; });
+    }
+    const double total = std::accumulate(mass.begin(), mass.end(), 0.0), least = 1.0 / static_cast<double>(records.size()), scale = 1 - std::log(least);
+    const auto density = [&](double quantile) { return 0.5 + 0.5 / (scale * std::max(quantile, least)); };
+    std::vector<double> share(order.size());
+    double before = 0, all = 0;
+    for (size_t i = 0; i < order.size(); ++i) {
+        const double m = mass[order[i]] / total;
+        share[i] = m * density(before + 0.5 * m);
+        before += m;
+        all += share[i];
+    }
+    kept.clear();
+    weights.clear();
+    double sum = 0, weight_sum = 0;
+    for (size_t i = 0; i < order.size() && kept.size() < count; ++i) {
+        sum += share[i] / all * count;
+        while (kept.size() < count && static_cast<double>(kept.size()) + 0.5 < sum) {
+            kept.push_back(records[order[i]]);
+            weights.push_back(static_cast<float>(mass[order[i]] / share[i]));
+            weight_sum += weights.back();
+        }
+    }
+    for (float& w : weights) w = static_cast<float>(w / weight_sum);
+}
+
+StfShell make_shell(const PhaseFunction& phase, size_t number, std::span<const ShellSampler> smaller, const StfOptions& options, const Progress& progress)
+{
+    const std::vector<ShellWalk> walks = walk_all(phase, number, smaller, options, progress);
+    StfShell shell;
+    shell.radius = Stf::radius(number);
+    std::vector<ShellExit> exits;
+    std::vector<ShellEvent> events;
+    std::vector<double> mass;
+    for (const ShellWalk& walk : walks) {
+        exits.push_back(walk.exit);
+        events.push_back(walk.event);
+        mass.push_back(walk.event_sum);
+        shell.event_sum += walk.event_sum;
+    }
+    shell.event_sum /= static_cast<double>(walks.size());
+    thin(exits, std::vector<double>(walks.size(), 1.0), options.records, [](const ShellExit& e) { return e.cos_t; }, shell.exits, shell.exit_weights);
+    thin(events, mass, options.records, [](const ShellEvent& e) { return e.along; }, shell.events, shell.event_weights);
+    return shell;
+}
+
+} // namespace
+
+void extend_stf(Stf& stf, size_t shells, const StfOptions& options, const Progress& progress)
+{
+    if (options.walks < 1u << 10 || options.walks > 1u << 24 || options.records < 1u << 6 || options.records > 1u << 20) {
+        throw InputError("shell transport functions", fmt::format("{} walks, {} records", options.walks, options.records), "2^10 to 2^24 walks, 2^6 to 2^20 records");
+    }
+    stf.shells.reserve(shells); // samplers point at them
+    std::vector<ShellSampler> smaller;
+    for (const StfShell& shell : stf.shells) smaller.emplace_back(shell, 1.0);
+    while (stf.shells.size() < shells) {
+        const size_t number = stf.shells.size();
+        progress.update(fmt::format("shell of {:.3g} mean free paths", Stf::radius(number)), static_cast<double>(number) / static_cast<double>(shells));
+        stf.shells.push_back(make_shell(stf.phase, number, smaller, options, progress));
+        smaller.emplace_back(stf.shells.back(), 1.0);
+    }
+}
+
+} // namespace scree
