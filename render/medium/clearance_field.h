@@ -2,26 +2,23 @@
 
 #include "ingest/support/progress.h"
 #include "render/math.h"
+#include "render/medium/triangle_tree.h"
 
 #include <Imath/ImathBox.h>
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace scree {
 
-/// Triangles over positions that live elsewhere.
-struct TriangleView {
-    std::span<const V3f> positions;
-    std::span<const std::array<uint32_t, 3>> triangles;
-};
-
 /// How far it certainly is from a place to the nearest of many triangles: a walk that is shorter needs no test against them.
 ///
-/// A dense grid of voxels holds, for each voxel's centre, the distance to the nearest cell of half the edge through which a triangle may
-/// pass (an exact distance transform, by axes: Saito and Toriwaki 1994). The bound is never above the distance, and mostly less than two voxels below it.
+/// A dense lattice holds squares of distances, and a tree the triangles. d^2(p) - |p|^2 is the least of many affine functions and so concave
+/// (Cannarsa and Sinestrari 2004, 2.2): in a voxel it is nowhere below the interpolation between its values at the corners. That is the bound where it
+/// is known to be tight, and the tree's distance elsewhere. Keeps no reference to the meshes.
 class ClearanceField {
 public:
     /// Knows nothing: the clearance is 0 everywhere.
@@ -30,26 +27,41 @@ public:
     /// box or triangle, voxels not in 1..1024), Cancelled.
     ClearanceField(std::span<const TriangleView> meshes, const Imath::Box3d& box, const Progress& progress, int voxels = 100);
 
-    /// A lower bound of the distance from a place to the nearest triangle; 0 outside of the box; infinite where there are none.
+    /// A lower bound of the distance from a place to the nearest triangle, at least 0.97 of it; 0 outside of the box; infinite where there are none.
     double clearance(const V3d& place) const
     {
         const V3d index = (place - origin_) * per_length_;
         // False for NaN as well.
         if (!(index.x >= 0 && index.y >= 0 && index.z >= 0 && index.x < size_[0] && index.y < size_[1] && index.z < size_[2])) return 0;
         const int x = static_cast<int>(index.x), y = static_cast<int>(index.y), z = static_cast<int>(index.z);
-        const V3d away(index.x - x - 0.5, index.y - y - 0.5, index.z - z - 0.5);
-        const float from_centre = distance_[(static_cast<size_t>(x) * static_cast<size_t>(size_[1]) + static_cast<size_t>(y)) * static_cast<size_t>(size_[2]) + static_cast<size_t>(z)];
-        return std::max(0.0, (from_centre - std::sqrt(away.dot(away))) * voxel_);
+        const size_t corner = (static_cast<size_t>(x) * step_[0]) + static_cast<size_t>(y) * step_[1] + static_cast<size_t>(z);
+        if (squares_.empty()) return std::numeric_limits<double>::infinity();
+        const float* s = &squares_[corner];
+        if (!(s[0] > 0)) return near(place);
+        return std::sqrt(interpolate(s, index.x - x, index.y - y, index.z - z)) * rounded_voxel_;
     }
 
     double voxel() const { return voxel_; }
-    uint64_t bytes() const { return distance_.size() * sizeof(float); }
+    uint64_t bytes() const { return squares_.size() * sizeof(float) + tree_.bytes(); }
 
 private:
+    double near(const V3d& place) const;
+    /// The square of the bound, in voxels, at fractions of a voxel from its lower corner.
+    double interpolate(const float* s, double tx, double ty, double tz) const
+    {
+        const auto along_z = [&](size_t at) { return (1 - tz) * double{std::abs(s[at])} + tz * double{std::abs(s[at + 1])}; };
+        const double low = (1 - ty) * along_z(0) + ty * along_z(step_[1]), high = (1 - ty) * along_z(step_[0]) + ty * along_z(step_[0] + step_[1]);
+        // The interpolation of |p|^2 is above it by this.
+        return (1 - tx) * low + tx * high - (tx * (1 - tx) + ty * (1 - ty) + tz * (1 - tz));
+    }
+    void fill_squares(const Progress& progress);
+
     V3d origin_{0};
-    double voxel_ = 0, per_length_ = 0;
+    double voxel_ = 0, per_length_ = 0, rounded_voxel_ = 0, scale_ = 1;
     std::array<int, 3> size_{0, 0, 0};
-    std::vector<float> distance_; ///< from centres, in voxels, rounded down
+    std::array<size_t, 2> step_{0, 0};
+    std::vector<float> squares_; ///< of distances of lattice points, in voxels, rounded down; negative or 0 where the tree is to be asked in the voxel above
+    TriangleTree tree_;
 };
 
 } // namespace scree

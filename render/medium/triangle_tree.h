@@ -1,0 +1,60 @@
+#pragma once
+
+#include "ingest/support/progress.h"
+#include "render/math.h"
+#include "render/medium/triangle_block.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace scree {
+
+/// Triangles over positions that live elsewhere.
+struct TriangleView {
+    std::span<const V3f> positions;
+    std::span<const std::array<uint32_t, 3>> triangles;
+};
+
+/// Finds how far it is from a place to the nearest of many triangles, of which it keeps its own copy.
+///
+/// A tree of boxes in float, eight a node, over blocks of up to eight triangles.
+class TriangleTree {
+public:
+    static constexpr uint32_t none = ~uint32_t{0};
+
+    TriangleTree() = default;
+    /// scale: a power of two that brings places that are asked about to a range about 1 wide. Throws InputError (a corner that is missing, not finite,
+    /// or not below 2^100 scaled), Cancelled.
+    TriangleTree(std::span<const TriangleView> meshes, double scale, const Progress& progress);
+
+    bool empty() const { return blocks_.empty(); }
+    /// A lower bound of the scaled distance from a scaled place; mostly 2^-12 of it below, at most 2^-6. Infinite where there are no triangles.
+    double distance(const V3d& place) const
+    {
+        uint32_t block = none;
+        return distance(place, block);
+    }
+    /// block: where it is likely to be found, or none; becomes where it was found.
+    double distance(const V3d& place, uint32_t& block) const;
+    /// About the point of a block's triangles that is nearest to a place.
+    V3d nearest(uint32_t block, const V3d& place) const;
+    uint64_t bytes() const { return nodes_.size() * sizeof(Node) + blocks_.size() * sizeof(TriangleBlock); }
+
+private:
+    friend class TriangleTreeBuilder;
+    static constexpr size_t width = 8;
+    static constexpr uint32_t leaf = uint32_t{1} << 31; ///< of a child's number: that of a block
+    static constexpr size_t deepest = 60;
+
+    struct alignas(64) Node {
+        std::array<std::array<float, width>, 3> lo, hi; ///< by axis and child; turned inside out where there is none
+        std::array<uint32_t, width> child;
+    };
+
+    std::vector<Node> nodes_; ///< the first is the root
+    std::vector<TriangleBlock> blocks_;
+};
+
+} // namespace scree
