@@ -13,7 +13,7 @@ public:
     /// weights: not negative, finite, at most 2^20 of them; with a sum of 0 all are as likely.
     explicit AliasTable(std::span<const double> weights);
 
-    size_t size() const { return slots_.size(); }
+    uint64_t bytes() const { return slots_.size() * sizeof(Slot); }
     /// u: uniform in (0, 1), in steps of 2^-32 or finer.
     uint32_t sample(double u) const
     {

@@ -46,17 +46,15 @@ const char* kind_name(HitKind kind)
 
 } // namespace
 
-std::string integrator_of(const SceneDescription& scene)
-{
-    return scene.integrator.kind == IntegratorKind::automatic ? "ept" : scene.integrator.name();
-}
-
 std::string plan_text(const WorldBuilder& builder, const World& world, size_t frame)
 {
     const SceneDescription& scene = builder.scene();
-    std::string text = fmt::format("{}: {}x{}, integrator {}", scene.file.string(), scene.film.width, scene.film.height, scene.integrator.name());
-    if (scene.integrator.kind == IntegratorKind::automatic) text += " (explicit path tracing)";
+    std::string text = fmt::format("{}: {}x{}, integrator {}", scene.file.string(), scene.film.width, scene.film.height, integrator_names[static_cast<size_t>(scene.integrator.kind)]);
+    if (scene.integrator.kind == IntegratorKind::automatic) text += fmt::format(", accuracy {}", accuracy_names[static_cast<size_t>(scene.integrator.accuracy)]);
     text += builder.frame_name(frame).empty() ? "\n" : fmt::format(", frame {} of {}: {}\n", frame, builder.frame_count(), builder.frame_name(frame));
+    const TransportPlan& plan = builder.plan();
+    text += part_text({"explicit grains", plan.has_exemplars(), plan.why});
+    text += part_text({"proxies", plan.has_proxies(), plan.has_proxies() ? fmt::format("after {} grains of a path", plan.explicit_grains) : plan.replaces_all ? "a medium stands for all grains" : "every grain is traced as it is"});
     for (const PartReport& part : builder.parts()) text += part_text(part);
 
     bool glass = false;
@@ -70,7 +68,7 @@ std::string plan_text(const WorldBuilder& builder, const World& world, size_t fr
         const bool wanted = std::find(scene.film.aov.begin(), scene.film.aov.end(), static_cast<Aov>(i)) != scene.film.aov.end();
         text += part_text({"channels " + aov_names[i], wanted, wanted ? "asked for" : "not asked for"});
     }
-    const bool none_traced = scene.integrator.kind == IntegratorKind::vpt && world.has_grains();
+    const bool none_traced = plan.replaces_all;
     text += fmt::format("  would trace {}{}{} grains of {} types among {} surfaces and {} media under {} lights\n", none_traced ? "a medium in place of " : "", world.fill ? "about " : "",
                         world.grain_count(), world.types.size(), world.surfaces.size(), world.regions.size(), world.lights.lights().size());
     return text;

@@ -26,9 +26,6 @@ std::string statistics_text(const FrameReport& report);
 /// All frames as one JSON object; integrator: by its name.
 std::string statistics_json(const std::vector<FrameReport>& reports, const std::string& integrator);
 
-/// The integrator that renders a scene, `auto` resolved: "ept" or "ppt".
-std::string integrator_of(const SceneDescription& scene);
-
 /// One sample again, vertex by vertex, in the scene's unit.
 std::string debug_text(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter,
                        const SamplePlace& place, const RenderOptions& options);

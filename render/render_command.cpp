@@ -54,7 +54,7 @@ FrameRange parse_frames(const std::string& text)
 }
 
 struct Arguments {
-    std::string integrator, accuracy, medium_form, size, crop, pixels, frames, debug, strategy = "both";
+    std::string integrator, accuracy, medium_form, stf_form, shells, size, crop, pixels, frames, debug, strategy = "both";
     std::vector<std::string> overrides, aov;
     RenderJob job;
 };
@@ -99,6 +99,8 @@ void take_over(Arguments& a)
     if (!a.integrator.empty()) job.integrator = static_cast<IntegratorKind>(place_of(integrator_names, a.integrator));
     if (!a.accuracy.empty()) job.accuracy = static_cast<Accuracy>(place_of(accuracy_names, a.accuracy));
     if (!a.medium_form.empty()) job.medium_form = static_cast<EquivalentForm>(place_of(medium_form_names, a.medium_form));
+    if (!a.stf_form.empty()) job.stf_form = static_cast<StfForm>(place_of(stf_form_names, a.stf_form));
+    if (!a.shells.empty()) job.shells = a.shells == "on";
     const std::vector<std::string> strategies{"both", "lights", "scattering"};
     job.options.path.direct_light = static_cast<DirectLight>(place_of(strategies, a.strategy));
 }
@@ -116,11 +118,13 @@ void add_render_command(CLI::App& app)
                         "Picture to write: .exr, or .png, .jpg for looking at; repeatable; %04d takes the frame number (default: the scene's name .exr)");
     command->add_option("--spp", job.spp, "Samples a pixel (default 64, or what --timeout allows)")->check(CLI::Range(1u, 1u << 30));
     command->add_option("--timeout", job.options.timeout, "Stop after this many seconds of rendering a frame")->check(CLI::PositiveNumber);
-    command->add_option("--integrator", a.integrator, "auto, ept (grains as they are), ppt (grains averaged over rotations, faster) or vpt (a medium in place of grains)")->check(CLI::IsMember(integrator_names));
+    command->add_option("--integrator", a.integrator, "auto (the rest joined as the scene and --accuracy ask), ept (grains as they are), ppt (grains averaged over rotations), vpt (a medium in place of grains) or stf (the same, through shells)")->check(CLI::IsMember(integrator_names));
     command->add_option("--accuracy", a.accuracy, "How far approximations may go: reference, high, standard or draft")->check(CLI::IsMember(accuracy_names));
-    command->add_option("--grain-depth", job.grain_depth, "With ept and ppt: how many mean radii below every face a medium stands for the grains (default: nowhere)")->check(CLI::NonNegativeNumber);
+    command->add_option("--grain-depth", job.grain_depth, "How many mean radii below every face a medium stands for the grains (default: auto by --accuracy, ept and ppt nowhere)")->check(CLI::NonNegativeNumber);
     command->add_option("--medium-form", a.medium_form, "How the medium of the grains is made: plain, formula, walk or decay (default)")->check(CLI::IsMember(medium_form_names));
-    command->add_option("--explicit-grains", job.explicit_grains, "With ppt: how many grains of a path are traced as they are (default 0)");
+    command->add_option("--shells", a.shells, "Whether light goes through shells in media: on or off (default: on with auto and stf)")->check(CLI::IsMember({"on", "off"}));
+    command->add_option("--stf-form", a.stf_form, "How shells are taken: full (default), cosine, hg, interpolated or diffusion")->check(CLI::IsMember(stf_form_names));
+    command->add_option("--explicit-grains", job.explicit_grains, "With auto and ppt: how many grains of a path are traced as they are (default: auto by --accuracy, ppt 0)");
     command->add_option("--frames", a.frames, "Frames to render, counted from 0: A, A:B or A:B:STEP, B included (default: the first)");
     command->add_option("--size", a.size, "Size of the picture, WIDTHxHEIGHT");
     command->add_option("--cropwindow", a.crop, "Render only x0,x1,y0,y1 of the picture, in 0..1");

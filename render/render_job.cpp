@@ -81,14 +81,18 @@ PictureMetadata make_metadata(const RenderJob& job, const WorldBuilder& builder,
                               size_t frame, const RenderStatistics& statistics)
 {
     PictureMetadata metadata;
-    metadata.texts = {{"software", "Scree"}, {"version", SCREE_VERSION}, {"integrator", integrator_of(builder.scene())},
+    metadata.texts = {{"software", "Scree"}, {"version", SCREE_VERSION}, {"integrator", builder.plan().name()},
                       {"sceneHash", fmt::format("{:016x}", builder.scene_hash())}, {"seed", std::to_string(job.options.seed)}};
     metadata.numbers = {{"spp", statistics.spp}, {"renderTime", statistics.seconds}, {"frame", static_cast<double>(frame)},
                         {"nonFiniteSamples", static_cast<double>(statistics.non_finite)}};
-    if (const IntegratorDescription& how = builder.scene().integrator; how.has_grain_medium()) {
-        metadata.texts["mediumForm"] = medium_form_names[static_cast<size_t>(how.medium_form)];
-        if (how.kind != IntegratorKind::vpt) metadata.numbers["grainDepth"] = *how.grain_depth;
+    const TransportPlan& plan = builder.plan();
+    if (plan.has_grain_medium) {
+        metadata.texts["mediumForm"] = medium_form_names[static_cast<size_t>(plan.medium_form)];
+        if (!plan.replaces_all) metadata.numbers["grainDepth"] = plan.depth_radii;
     }
+    if (plan.has_shells) metadata.texts["stfForm"] = stf_form_names[static_cast<size_t>(plan.stf_form)];
+    if (plan.has_proxies()) metadata.numbers["explicitGrains"] = plan.explicit_grains;
+    if (plan.kind != IntegratorKind::ept) metadata.texts["accuracy"] = accuracy_names[static_cast<size_t>(plan.accuracy)];
     if (builder.scene().assembly && !builder.frame_name(frame).empty()) metadata.texts["particles"] = builder.frame_name(frame);
     std::vector<std::string> types;
     for (size_t i = 0; i < world.types.size(); ++i) types.push_back(fmt::format("{}={}", i, world.types[i].name));
@@ -153,7 +157,7 @@ public:
         if (stats_file) {
             AtomicFile file(job_.stats_json);
             std::ofstream out(file.temporary());
-            out << statistics_json(reports_, integrator_of(scene_));
+            out << statistics_json(reports_, builder_.plan().name());
             out.close();
             if (!out) throw InputError(job_.stats_json.string(), "a disk that is full or cannot be written", "room for the statistics");
             file.commit();
@@ -175,9 +179,11 @@ private:
         if (job.max_depth > 0) integrator.max_depth = job.max_depth;
         integrator.kind = job.integrator.value_or(integrator.kind);
         integrator.accuracy = job.accuracy.value_or(integrator.accuracy);
-        integrator.explicit_grains = job.explicit_grains.value_or(integrator.explicit_grains);
+        if (job.explicit_grains) integrator.explicit_grains = job.explicit_grains;
         if (job.grain_depth) integrator.grain_depth = job.grain_depth;
         integrator.medium_form = job.medium_form.value_or(integrator.medium_form);
+        integrator.stf_form = job.stf_form.value_or(integrator.stf_form);
+        if (job.shells) integrator.shells = job.shells;
         return scene;
     }
 
@@ -216,7 +222,10 @@ private:
         const Camera camera = make_camera(scene_, world->space);
         RenderOptions options = job_.options;
         options.path.max_depth = scene_.integrator.max_depth;
-        if (scene_.integrator.has_proxies()) options.path.explicit_grains = scene_.integrator.explicit_grains;
+        const TransportPlan& plan = builder_.plan();
+        if (plan.has_proxies()) options.path.explicit_grains = plan.explicit_grains;
+        const PixelSize pixel = pixel_size(scene_.camera, scene_.film);
+        options.path.resolved = {plan.least_pixels * world->space.length(pixel.width), plan.least_pixels * pixel.slope};
         if (job_.spp) options.spp = *job_.spp;
         else if (options.timeout > 0) options.spp = 1u << 30;
         if (job_.debug_sample) {

@@ -21,11 +21,13 @@ struct RenderJob {
     std::filesystem::path scene;
     std::vector<std::string> outputs;       ///< empty: the scene's name with .exr
     std::optional<uint32_t> spp;
-    std::optional<IntegratorKind> integrator; ///< else the scene's, as the next four
+    std::optional<IntegratorKind> integrator; ///< else the scene's, as the next six
     std::optional<Accuracy> accuracy;
     std::optional<uint32_t> explicit_grains;
     std::optional<double> grain_depth;
     std::optional<EquivalentForm> medium_form;
+    std::optional<bool> shells;
+    std::optional<StfForm> stf_form;
     std::optional<FrameRange> frames;
     std::optional<std::pair<int, int>> size;
     std::optional<std::array<double, 4>> crop;    ///< x0, x1, y0, y1 in 0..1

@@ -40,6 +40,10 @@ bool Path::handle(const Hit& hit)
         beyond_ = passed_ = hit.t; // on along the same ray
         return true;
     }
+    if (depth_ == 0 && !is_inside() && hit.place.kind == HitKind::grain && explicit_left_ > 0 && !is_resolved(hit)) {
+        explicit_left_ = 0; // the same ray again, among proxies
+        return true;
+    }
     if (media_ && is_inside() && hit.place.kind != HitKind::none) regions_ = media_->after(regions_, o_, hit.point);
     attenuate(is_inside() ? &material_of(grain_) : surrounding_, hit.t);
     if (hit.place.kind == HitKind::light) {

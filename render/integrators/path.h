@@ -32,6 +32,12 @@ private:
         bool elsewhere = false; ///< the path did not go on from there: lights are to be met again from seen_from
     };
 
+    /// Whether a grain that the camera sees is wide enough to be shown as it is.
+    bool is_resolved(const Hit& hit) const
+    {
+        const double pixel = options_.resolved.width + options_.resolved.slope * (moved_ + hit.t);
+        return !(2 * world_.sphere(hit.place.index).radius < pixel);
+    }
     bool is_inside() const { return grain_.kind == HitKind::grain; }
     GrainDetail detail() const { return explicit_left_ > 0 ? GrainDetail::as_is : GrainDetail::proxy; }
     /// The same within the regions: there may be a medium in place of the grains.

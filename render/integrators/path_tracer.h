@@ -3,9 +3,9 @@
 #include "render/film/film.h"
 #include "render/sampler.h"
 #include "render/scene/tracer.h"
+#include "render/scene/transport_plan.h"
 
 #include <functional>
-#include <limits>
 #include <vector>
 
 namespace scree {
@@ -13,11 +13,11 @@ namespace scree {
 /// How direct light is found: by both strategies (weighed), or by one alone, for tests.
 enum class DirectLight : uint8_t { both, lights_only, scattering_only };
 
-inline constexpr uint32_t all_grains = std::numeric_limits<uint32_t>::max();
-
 struct PathOptions {
     DirectLight direct_light = DirectLight::both;
     uint32_t explicit_grains = all_grains; ///< grains of a path that are traced as they are; those after them are proxies
+    /// A grain narrower than this at its distance along the camera's ray (render coordinates), as it is met first, is a proxy, and so are all after it.
+    PixelSize resolved;
     uint32_t max_depth = 0; ///< scattering events after which a path is cut, which biases; 0: never
     std::function<bool()> stop; ///< asked every 65,536 segments: a path that cannot end (white walls all around) is given up
 };

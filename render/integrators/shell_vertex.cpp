@@ -15,7 +15,7 @@ std::optional<bool> Path::step_through_shell(Hit& met)
     if (!shells) return std::nullopt;
     const double clear = media_->clearance(o_);
     FittingShell shell;
-    if (!shells->fit(clear, shells->form() == StfForm::interpolated ? sampler_.next() : 0, shell)) return std::nullopt;
+    if (!shells->fit(o_, clear, shells->needs_chance() ? sampler_.next() : 0, shell)) return std::nullopt;
 
     met.place.kind = HitKind::medium;
     met.t = shell.length;

@@ -39,7 +39,8 @@ ClearanceField::ClearanceField(std::span<const TriangleView> meshes, const Imath
     step_[1] = static_cast<size_t>(size_[2]) + 1;
     step_[0] = step_[1] * (static_cast<size_t>(size_[1]) + 1);
     tree_ = TriangleTree(meshes, scale_, progress);
-    if (!tree_.empty()) fill_squares(progress);
+    if (tree_.empty()) largest_ = std::numeric_limits<double>::infinity();
+    else fill_squares(progress);
     progress.update("clearance", 1);
 }
 
@@ -97,6 +98,7 @@ void ClearanceField::fill_squares(const Progress& progress)
         }
     });
     if (progress.cancelled()) throw Cancelled();
+    largest_ = (std::sqrt(double{*std::ranges::max_element(squares_)}) + std::sqrt(3.0)) * voxel_; // a place may lie between those of the lattice
     for (size_t i = 0; i < squares_.size(); ++i)
         if (!tight[i]) squares_[i] = -squares_[i];
 }

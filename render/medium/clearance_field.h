@@ -41,6 +41,8 @@ public:
         return std::sqrt(interpolate(s, index.x - x, index.y - y, index.z - z)) * rounded_voxel_;
     }
 
+    /// Of all places in the box, or more than that.
+    double largest() const { return largest_; }
     double voxel() const { return voxel_; }
     uint64_t bytes() const { return squares_.size() * sizeof(float) + tree_.bytes(); }
 
@@ -58,6 +60,7 @@ private:
 
     V3d origin_{0};
     double voxel_ = 0, per_length_ = 0, rounded_voxel_ = 0, scale_ = 1;
+    double largest_ = 0;
     std::array<int, 3> size_{0, 0, 0};
     std::array<size_t, 2> step_{0, 0};
     std::vector<float> squares_; ///< of distances of lattice points, in voxels, rounded down; negative or 0 where the tree is to be asked in the voxel above

@@ -42,7 +42,8 @@ public:
     bool is_achromatic() const;
     double largest_sigma_t() const; ///< of any channel
     uint64_t bytes() const;
-    /// For tests and reports.
+    std::shared_ptr<const GridMediumData> data() const { return data_; }
+    /// Anywhere; sigma_t per channel.
     C3f sigma_t(const V3d& p) const;
     C3f albedo(const V3d& p) const;
     double g(const V3d& p) const;

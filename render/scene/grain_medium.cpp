@@ -213,19 +213,20 @@ std::optional<RegionSurface> surface_below(const World& world, double depth, con
 
 } // namespace
 
-void replace_grains(const GrainMedium& medium, double depth, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
+void replace_grains(const GrainMedium& medium, const GrainDepth& depth, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
 {
     const Stopwatch watch;
     const std::string part = "medium of the grains";
-    const bool all = depth < 0;
-    std::optional<RegionSurface> surface = surface_below(world, all ? medium.sample.volume_weighted_radius() : depth * medium.sample.mean_radius(), progress);
+    const bool all = depth.all;
+    const double radius = medium.sample.mean_radius(), below = all ? medium.sample.volume_weighted_radius() : std::max(depth.radii * radius, depth.flights / medium.medium.sigma_t);
+    std::optional<RegionSurface> surface = surface_below(world, below, progress);
     if (surface && !surface->triangles.empty()) {
         const MomentTable table(world.types, medium.sample);
         const LocalMedia media(medium, table);
         MediumRegion region;
         region.name = part;
         region.instead_of_grains = true;
-        std::string how = fmt::format("below {} triangles, ", surface->triangles.size());
+        std::string how = fmt::format("{:.3g} mean radii deep, below {} triangles, ", below / radius, surface->triangles.size());
         uint64_t bytes = surface->triangles.size() * sizeof(surface->triangles[0]) + surface->positions.size() * sizeof(V3f);
         if (!world.fill) region.grid = medium_of_list(world, media, progress);
         else if (is_patterned(world, medium.sample)) region.grid = medium_of_fill(world, *surface, media, progress);
@@ -238,7 +239,7 @@ void replace_grains(const GrainMedium& medium, double depth, World& world, std::
         if (surface->coarsened) remarks.push_back("the surface of the medium that stands for the grains is coarse: it would have too many voxels");
         if (!medium.medium.doubt.empty()) remarks.push_back("the medium of the grains: " + medium.medium.doubt);
     } else {
-        parts.push_back({part, false, all ? "no grain is deeper than a radius" : fmt::format("no place is {:g} mean radii deep", depth), watch.seconds()});
+        parts.push_back({part, false, all ? "no grain is deeper than a radius" : fmt::format("no place is {:.3g} mean radii deep", below / radius), watch.seconds()});
         if (all) remarks.push_back("no place is deeper among the grains than one of them: the picture lacks them");
     }
     if (all) {

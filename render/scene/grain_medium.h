@@ -23,12 +23,18 @@ struct GrainMedium {
 /// The equivalent of all a world's grains; every type that it has needs a GSDF. Nothing where there are no grains. Throws InputError, Cancelled.
 std::optional<GrainMedium> make_grain_medium(const World& world, EquivalentForm form, const Progress& progress);
 
-/// Puts a medium in the place of the grains that are deeper than `depth` mean radii below every face of what they fill; negative: of all grains, the
-/// medium beginning one mean radius (by volume) within the faces.
+/// Below every face of what the grains fill: where on a medium stands for them.
+struct GrainDepth {
+    bool all = false;  ///< for all grains, beginning one mean radius (by volume) within the faces
+    double radii = 0;  ///< else from so many mean radii on,
+    double flights = 0; ///< but not less than so many mean free paths of the medium
+};
+
+/// Puts a medium in the place of the grains that are deep enough.
 ///
 /// Of a list of grains the medium varies as they do, of a fill as its mixture does. Reports what was built, or why nothing was. Throws
 /// InputError, Cancelled.
-void replace_grains(const GrainMedium& medium, double depth, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks,
+void replace_grains(const GrainMedium& medium, const GrainDepth& depth, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks,
                     const Progress& progress);
 
 } // namespace scree

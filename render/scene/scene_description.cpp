@@ -263,6 +263,8 @@ IntegratorDescription read_integrator(const JsonValue& json)
     if (const auto grains = object.find("explicit_grains")) integrator.explicit_grains = static_cast<uint32_t>(grains->integer(0, 1000000000));
     if (const auto depth = object.find("grain_depth")) integrator.grain_depth = depth->number(0, largest);
     if (const auto form = object.find("medium_form")) integrator.medium_form = static_cast<EquivalentForm>(form->choice(medium_form_names));
+    if (const auto shells = object.find("shells")) integrator.shells = shells->boolean();
+    if (const auto form = object.find("stf_form")) integrator.stf_form = static_cast<StfForm>(form->choice(stf_form_names));
     object.done();
     return integrator;
 }

@@ -6,6 +6,7 @@
 #include "render/materials/material.h"
 #include "render/medium/equivalent_form.h"
 #include "render/scene/camera.h"
+#include "render/stf/stf_form.h"
 
 #include <filesystem>
 #include <map>
@@ -94,29 +95,25 @@ struct MediumDescription {
     bool nearest = false;              ///< vdb: no interpolation between voxels
 };
 
-enum class IntegratorKind : uint8_t { automatic, ept, ppt, vpt };
-inline const std::vector<std::string> integrator_names{"auto", "ept", "ppt", "vpt"};
+enum class IntegratorKind : uint8_t { automatic, ept, ppt, vpt, stf };
+inline const std::vector<std::string> integrator_names{"auto", "ept", "ppt", "vpt", "stf"};
 
 /// How far approximations may go.
 enum class Accuracy : uint8_t { reference, high, standard, draft };
 inline const std::vector<std::string> accuracy_names{"reference", "high", "standard", "draft"};
 
+/// What the scene or the command line says of the integrator; transport_plan.h makes switches of it.
 struct IntegratorDescription {
     IntegratorKind kind = IntegratorKind::automatic;
     Accuracy accuracy = Accuracy::standard;
     uint32_t max_depth = 0;       ///< 0: never cut
-    uint32_t explicit_grains = 0; ///< ppt: how many grains of a path are traced as they are
+    std::optional<uint32_t> explicit_grains; ///< auto and ppt: how many grains of a path are traced as they are
 
-    std::optional<double> grain_depth; ///< mean radii below every face, from where on a medium stands for the grains; absent: nowhere
+    std::optional<double> grain_depth; ///< mean radii below every face, from where on a medium stands for the grains; absent: nowhere, or as auto has it
     EquivalentForm medium_form = EquivalentForm::decay;
 
-    bool has_proxies() const { return kind == IntegratorKind::ppt; }
-    /// Whether a medium stands for some grains.
-    bool has_grain_medium() const { return kind == IntegratorKind::vpt || grain_depth; }
-    /// Whether a path can meet grains as they are.
-    bool has_exemplars() const { return kind == IntegratorKind::ppt ? explicit_grains > 0 : kind != IntegratorKind::vpt; }
-    bool needs_gsdfs() const { return has_proxies() || has_grain_medium(); }
-    const std::string& name() const { return integrator_names[static_cast<size_t>(kind)]; }
+    std::optional<bool> shells;        ///< whether light goes through shells in media; absent: with stf and auto
+    StfForm stf_form = StfForm::full;
 };
 
 /// A scene file, read and checked, with paths made absolute; nothing it names has been opened yet.

@@ -11,17 +11,49 @@ namespace {
 
 constexpr double largest_radius = 1024; ///< mean free paths
 
-/// How many shells of a medium there is use for. inside: no shell in there is larger.
-size_t useful_shells(const HomogeneousMedium& medium, double inside)
+constexpr double tolerance = 0.1;       ///< within which a medium of grids counts as the same in a shell
+constexpr double g_step = 1.3;          ///< of 1 - g, where it varies: the same for all scenes, so that they share tables
+
+/// How many shells there is use for. inside: no shell in there is larger.
+size_t useful_shells(double sigma_t, double albedo, double g, double inside)
 {
-    const double albedo = max_component(medium.albedo()), g = medium.phase().mean_cosine();
     // Beyond some 20 decay lengths of a diffusing medium nothing is left to go on with; smaller shells do as well.
     const double decay = std::sqrt(3 * (1 - albedo) * (1 - albedo * g)), most = decay > 0 ? std::min(largest_radius, std::max(1.0, 20 / decay)) : largest_radius;
     const size_t all = static_cast<size_t>(std::ceil(std::log2(largest_radius) * Stf::steps_per_octave)) + 1;
-    return static_cast<size_t>(Stf::largest(std::min(most, inside * medium.sigma_t().x), all) + 1);
+    return static_cast<size_t>(Stf::largest(std::min(most, inside * sigma_t), all) + 1);
+}
+
+/// Asymmetries from at most `low` to at least `high`.
+std::vector<double> g_axis(double low, double high)
+{
+    constexpr double most = 0.999;
+    low = std::clamp(low, -most, most);
+    high = std::clamp(high, -most, most);
+    if (low == high) return {low};
+    const int first = static_cast<int>(std::floor(-std::log(1 - low) / std::log(g_step))), last = static_cast<int>(std::ceil(-std::log(1 - high) / std::log(g_step)));
+    std::vector<double> axis;
+    for (int k = first; k <= last; ++k) axis.push_back(std::max(-most, 1 - std::pow(g_step, -k)));
+    return axis;
+}
+
+double half_width(const MediumRegion& region)
+{
+    Imath::Box3d box;
+    for (const V3f& p : region.positions) box.extendBy(V3d(p));
+    const V3d extent = box.size();
+    return 0.5 * std::min({extent.x, extent.y, extent.z});
 }
 
 } // namespace
+
+StfOptions stf_options(Accuracy accuracy)
+{
+    constexpr int bits[] = {19, 18, 17, 15};
+    StfOptions options;
+    options.walks = uint64_t{1} << bits[static_cast<size_t>(accuracy)];
+    options.records = static_cast<uint32_t>(std::min<uint64_t>(options.records, options.walks));
+    return options;
+}
 
 std::shared_ptr<const ClearanceField> make_clearance(const World& world, const Progress& progress)
 {
@@ -57,37 +89,56 @@ void add_shells(StfForm form, StfCache& cache, World& world, std::vector<PartRep
 {
     for (MediumRegion& region : world.regions) {
         const std::string part = "shells of '" + region.name + "'";
-        const auto skip = [&](const char* why) { parts.push_back({part, false, why}); };
+        const auto skip = [&](const std::string& why) { parts.push_back({part, false, why}); };
         if (!world.clearance) {
-            skip("grains may be met in it");
+            skip("grains, or a spherical light, may be met in it");
             continue;
         }
         if (!region.is_achromatic()) {
             skip("its extinction depends on the channel");
             continue;
         }
-        Imath::Box3d box;
-        for (const V3f& p : region.positions) box.extendBy(V3d(p));
-        const V3d extent = box.size();
-        const double inside = std::min(0.5 * std::min({extent.x, extent.y, extent.z}), world.clearance->largest());
-        if (!region.homogeneous) {
-            skip("it is not the same everywhere");
-            continue;
-        }
         const Stopwatch watch;
-        const size_t count = useful_shells(*region.homogeneous, inside);
+        double sigma_t, albedo, g_low, g_high;
+        std::unique_ptr<GridUniformity> uniformity;
+        if (region.homogeneous) {
+            sigma_t = region.homogeneous->sigma_t().x;
+            albedo = max_component(region.homogeneous->albedo());
+            g_low = g_high = region.homogeneous->phase().mean_cosine();
+        } else {
+            uniformity = std::make_unique<GridUniformity>(*region.grid, tolerance);
+            const GridUniformity::Extremes extremes = uniformity->extremes();
+            sigma_t = region.grid->largest_sigma_t();
+            albedo = extremes.albedo_high;
+            g_low = extremes.g_low;
+            g_high = extremes.g_high;
+        }
+        const size_t count = useful_shells(sigma_t, albedo, g_low, std::min(half_width(region), world.clearance->largest()));
         if (count == 0) {
-            skip("no shell fits, the medium is thinner than a mean free path");
+            skip("none fits: no place is a mean free path away from all faces");
             continue;
         }
-        StfCache::Found found;
-        const std::shared_ptr<const PhaseTable> table = form >= StfForm::hg ? nullptr : region.homogeneous->phase_table();
-        if (form == StfForm::diffusion) found.stf = std::make_shared<Stf>();
-        else found = cache.find(region.homogeneous->phase().mean_cosine(), table, count, progress);
-        if (!found.remark.empty()) remarks.push_back(found.remark);
-        auto shells = std::make_shared<MediumShells>(found.stf, *region.homogeneous, count, form);
-        parts.push_back({part, true, fmt::format("{} of up to {:.4g} mean free paths, {} made now", count, Stf::radius(count - 1), found.computed), watch.seconds(), shells->bytes()});
-        region.shells = std::move(shells);
+        std::vector<std::shared_ptr<const Stf>> stfs;
+        size_t computed = 0;
+        const auto add_stf = [&](double g, const std::shared_ptr<const PhaseTable>& table) {
+            if (form == StfForm::diffusion) {
+                stfs.push_back(std::make_shared<Stf>(g));
+                return;
+            }
+            const StfCache::Found found = cache.find(g, table, count, progress);
+            if (!found.remark.empty()) remarks.push_back(found.remark);
+            stfs.push_back(found.stf);
+            computed += found.computed;
+        };
+        if (region.homogeneous) {
+            add_stf(g_low, form >= StfForm::hg ? nullptr : region.homogeneous->phase_table());
+            region.shells = std::make_shared<MediumShells>(stfs[0], *region.homogeneous, count, form);
+        } else {
+            for (const double g : g_axis(g_low, g_high)) add_stf(g, nullptr);
+            region.shells = std::make_shared<MediumShells>(stfs, region.grid, std::move(uniformity), count, form);
+        }
+        parts.push_back({part, true, fmt::format("{} of up to {:.4g} mean free paths for {} values of g, {} made now", count, Stf::radius(count - 1), stfs.size(), computed),
+                         watch.seconds(), region.shells->bytes()});
     }
 }
 

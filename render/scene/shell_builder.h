@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/scene/part_report.h"
+#include "render/scene/scene_description.h"
 #include "render/scene/world.h"
 #include "render/stf/stf_cache.h"
 #include "render/stf/stf_form.h"
@@ -10,6 +11,9 @@
 #include <vector>
 
 namespace scree {
+
+/// Walks a shell that an accuracy stands for.
+StfOptions stf_options(Accuracy accuracy);
 
 /// Distances within the media of a world from all that a ray may meet there, or null where nothing is known: no media, or grains among them.
 std::shared_ptr<const ClearanceField> make_clearance(const World& world, const Progress& progress);

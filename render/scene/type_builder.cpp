@@ -32,7 +32,7 @@ void TypeBuilder::add_exemplar(const GrainTypeDescription& type, Shape& shape, c
         request.parts.push_back({part, false, "its shape is the bounding sphere itself"});
         return;
     }
-    if (!integrator_.has_exemplars()) {
+    if (!request.plan.has_exemplars()) {
         request.parts.push_back({part, false, "no grain is traced as it is"});
         return;
     }
@@ -45,11 +45,11 @@ void TypeBuilder::add_exemplar(const GrainTypeDescription& type, Shape& shape, c
 void TypeBuilder::add_gsdf(const GrainTypeDescription& type, Shape& shape, const TypeRequest& request)
 {
     const std::string part = "gsdf '" + type.name + "'";
-    if (!integrator_.needs_gsdfs()) {
-        request.parts.push_back({part, false, "the integrator has neither proxies nor a medium of grains"});
+    if (!request.plan.needs_gsdfs()) {
+        request.parts.push_back({part, false, "no grain is a proxy, and no medium stands for any"});
         return;
     }
-    const GsdfOptions options = gsdf_options(integrator_.accuracy);
+    const GsdfOptions options = gsdf_options(request.plan.accuracy);
     GsdfSource source{shape.hash, type.material, nullptr};
     if (type.has_mesh()) {
         source.exemplar = [&] {
@@ -95,7 +95,7 @@ uint64_t TypeBuilder::build(const std::vector<GrainTypeDescription>& types, cons
             if (is_new) shape.hash = hash_shape(shape_source(type));
             add_exemplar(type, shape, request);
             add_gsdf(type, shape, request);
-            if (integrator_.has_exemplars()) made.exemplar = shape.exemplar;
+            if (request.plan.has_exemplars()) made.exemplar = shape.exemplar;
             else shape.exemplar = nullptr; // was only needed to trace the GSDF
             made.gsdf = shape.gsdf;
             hash = mix64(hash ^ shape.hash);

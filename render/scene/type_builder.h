@@ -4,6 +4,7 @@
 #include "render/gsdf/gsdf_builder.h"
 #include "render/scene/part_report.h"
 #include "render/scene/scene_description.h"
+#include "render/scene/transport_plan.h"
 #include "render/scene/world.h"
 
 #include <map>
@@ -19,6 +20,7 @@ enum class Precompute : uint8_t { now, never };
 
 /// How types are to be made, and where to tell of it.
 struct TypeRequest {
+    const TransportPlan& plan;
     Precompute precompute;
     const Progress& progress;
     std::vector<PartReport>& parts;
@@ -28,14 +30,11 @@ struct TypeRequest {
 /// The mean error of directional densities that an accuracy stands for.
 GsdfOptions gsdf_options(Accuracy accuracy);
 
-/// Makes the grain types of worlds: exemplars where an integrator traces grains as they are, GSDFs where it has proxies.
+/// Makes the grain types of worlds: exemplars where grains are traced as they are, GSDFs where there are proxies.
 /// What frames share is made once, and only when a frame has a grain of the type.
 class TypeBuilder {
 public:
-    TypeBuilder(std::shared_ptr<const EmbreeDevice> device, const IntegratorDescription& integrator)
-        : device_(std::move(device)), integrator_(integrator)
-    {
-    }
+    explicit TypeBuilder(std::shared_ptr<const EmbreeDevice> device) : device_(std::move(device)) {}
 
     /// Adds every type to `world` (whose space is set), what is needed of those used, and a report on each part.
     /// Returns `hash` with the shapes mixed in. Throws InputError, or Cancelled.
@@ -53,7 +52,6 @@ private:
     void add_gsdf(const GrainTypeDescription& type, Shape& shape, const TypeRequest& request);
 
     std::shared_ptr<const EmbreeDevice> device_;
-    IntegratorDescription integrator_;
     std::map<std::string, Shape> shapes_; ///< by grain type
     std::map<uint64_t, std::shared_ptr<const Gsdf>> gsdfs_; ///< by gsdf_key
 };

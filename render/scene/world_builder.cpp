@@ -5,11 +5,13 @@
 #include "ingest/triangle_mesh.h"
 #include "ingest/vdb_points.h"
 #include "mixtures/mixture_series.h"
+#include "render/gsdf/gsdf_cache.h"
 #include "render/scene/content_hash.h"
 #include "render/scene/fill_builder.h"
 #include "render/scene/grain_medium.h"
 #include "render/scene/light_builder.h"
 #include "render/scene/medium_builder.h"
+#include "render/scene/shell_builder.h"
 #include "render/scene/type_builder.h"
 #include "render/lights/environment_file.h"
 
@@ -102,18 +104,22 @@ struct WorldBuilder::Impl {
     std::optional<DumpSeries> series;
     std::optional<MixtureSeries> mixtures;
     std::optional<BuiltFill> fill;
-    TypeBuilder types{device, scene.integrator};
+    TypeBuilder types{device};
     MediumBuilder media{scene};
     std::vector<TriangleMesh> surfaces;
     std::map<size_t, std::shared_ptr<const EnvironmentMap>> maps; // by light
+    std::unique_ptr<StfCache> shells;
+    TransportPlan plan;
     std::vector<PartReport> parts;
     std::vector<std::string> frame_warnings;
     uint64_t hash = 0;
 
     explicit Impl(SceneDescription s) : scene(std::move(s)) {}
     Spheres read_spheres(size_t frame, const Progress& progress);
+    void decide(const GrainFacts& facts);
     GrainStore make_grains(Spheres spheres, const TypeRequest& request, World& world);
     void make_fill(const TypeRequest& request, World& world);
+    void make_shells(World& world, const Progress& progress, Precompute precompute);
     TriangleMesh read_surface(const SurfaceDescription& surface) const;
     void make_surfaces(World& world);
     LightSet make_lights(const World& world);
@@ -169,13 +175,33 @@ Spheres WorldBuilder::Impl::read_spheres(size_t number, const Progress& progress
     return spheres;
 }
 
+void WorldBuilder::Impl::decide(const GrainFacts& facts)
+{
+    plan = plan_transport(scene.integrator, scene.camera, scene.film, facts);
+}
+
 GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, const TypeRequest& request, World& world)
 {
     const ParticleFrame& frame = spheres.frame;
     Bounds bounds; // grains of radius 0 are left out of the world, and so of its bounds
+    GrainFacts facts;
+    double sections = 0;
+    std::vector<uint8_t> used(scene.types.size(), 0);
     for (size_t i = 0; i < frame.size(); ++i) {
-        if (frame.radius[i] > 0) bounds.extend(frame.position[i], frame.radius[i]);
+        used[spheres.types[i]] = 1;
+        if (!(frame.radius[i] > 0)) continue;
+        bounds.extend(frame.position[i], frame.radius[i]);
+        ++facts.count;
+        facts.mean_radius += frame.radius[i];
+        facts.largest_radius = std::max(facts.largest_radius, double{frame.radius[i]});
+        const double section = double{frame.radius[i]} * frame.radius[i];
+        facts.loss += section * rough_loss(scene.types[spheres.types[i]].material, frame.radius[i]);
+        sections += section;
     }
+    if (sections > 0) facts.loss /= sections;
+    facts.mean_radius /= static_cast<double>(std::max<uint64_t>(1, facts.count));
+    if (!bounds.empty()) facts.bounds = {bounds.lo, bounds.hi};
+    decide(facts);
     if (frame.domain) {
         set_domain(*frame.domain, world);
     } else {
@@ -183,8 +209,6 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, const TypeRequest& r
         world.space.origin = scene_origin(frame.position, bounds);
     }
 
-    std::vector<uint8_t> used(scene.types.size(), 0);
-    for (size_t i = 0; i < frame.size(); ++i) used[spheres.types[i]] = 1;
     hash = types.build(scene.types, used, request, world, hash);
 
     GrainStore grains;
@@ -233,6 +257,15 @@ void WorldBuilder::Impl::make_fill(const TypeRequest& request, World& world)
     const ProceduralFill& spheres = *fill->fill;
     set_domain(spheres.domain().bounds(), world);
     world.fill = std::make_shared<GrainFill>(fill->fill, fill->mixture, world.space);
+    GrainFacts facts{static_cast<uint64_t>(spheres.expected_count()), 0, spheres.largest_radius(), spheres.domain().bounds()};
+    for (uint64_t row = 0; row < spheres.tile().rows(); ++row) facts.mean_radius += spheres.radius(row) / static_cast<double>(spheres.tile().rows());
+    constexpr uint64_t drawn = 4096; // which types there are is up to the mixture
+    for (uint64_t n = 0; n < drawn; ++n) {
+        const uint64_t random = hash_index(n, 0), row = mix64(random) % spheres.tile().rows();
+        const ProceduralFill::Sphere sphere = spheres.sphere(spheres.id(random % spheres.cell_count(), row));
+        facts.loss += rough_loss(scene.types[world.fill->type(spheres.id(random % spheres.cell_count(), row), sphere)].material, spheres.radius(row)) / drawn;
+    }
+    decide(facts);
     const std::vector<uint8_t> any(scene.types.size(), 1); // any type may be met
     hash = types.build(scene.types, any, request, world, hash);
     hash = hash_mesh(spheres.domain().mesh(), hash);
@@ -293,31 +326,52 @@ std::shared_ptr<const EnvironmentMap> WorldBuilder::Impl::read_map(size_t light)
     return map;
 }
 
-/// Puts a medium in the place of grains where the integrator wants that.
+/// Puts a medium in the place of grains where that is planned.
 void WorldBuilder::Impl::replace_grains(World& world, const Progress& progress, Precompute precompute)
 {
-    const IntegratorDescription& integrator = scene.integrator;
-    if (!integrator.has_grain_medium() || !world.has_grains()) {
-        parts.push_back({"medium of the grains", false, world.has_grains() ? "the integrator traces grains everywhere" : "the scene has no grains"});
+    const auto skip = [&](const char* part, const std::string& why) { parts.push_back({part, false, why}); };
+    if (!plan.has_grain_medium || !world.has_grains()) {
+        const bool wanted = plan.depth_radii > 0 && plan.has_proxies();
+        skip("medium of the grains", !world.has_grains() ? "the scene has no grains" : wanted ? fmt::format("hardly a grain is {:g} mean radii deep", plan.depth_radii) : "grains are traced everywhere");
         return;
     }
-    const bool all = integrator.kind == IntegratorKind::vpt;
-    const double depth = all ? -1 : *integrator.grain_depth;
-    hash = hash_bytes(&depth, sizeof depth, mix64(hash + static_cast<uint64_t>(integrator.medium_form)));
-    if (all && integrator.grain_depth) frame_warnings.push_back("grain_depth has no effect with vpt, which traces no grains");
+    const bool all = plan.replaces_all;
+    const GrainDepth depth{all, plan.depth_radii, plan.depth_flights};
+    hash = hash_bytes(&plan.depth_radii, sizeof plan.depth_radii, mix64(hash + static_cast<uint64_t>(plan.medium_form) + 16 * all));
+    if (all && scene.integrator.grain_depth) frame_warnings.push_back("grain_depth has no effect with vpt and stf, which trace no grains");
     if (precompute == Precompute::never) {
-        parts.push_back({"medium of the grains", true, all ? "to be made, in place of all grains" : fmt::format("to be made, where there is a place {:g} mean radii below every face", depth)});
+        parts.push_back({"medium of the grains", true, all ? "to be made, in place of all grains" : fmt::format("to be made, where there is a place {:g} mean radii below every face", plan.depth_radii)});
         return;
     }
     const Stopwatch watch;
-    const auto medium = make_grain_medium(world, integrator.medium_form, progress);
+    const auto medium = make_grain_medium(world, plan.medium_form, progress);
     if (!medium) return;
     if (medium->walk) {
         parts.push_back({"walk in the packing", true, fmt::format("{} scatterings, transport length to {:.2g} %", medium->walk->scatterings, 100 * medium->walk->transport_length.error / medium->walk->transport_length.value), watch.seconds()});
     } else {
-        parts.push_back({"walk in the packing", false, "the form of the medium needs none"});
+        skip("walk in the packing", "the form of the medium needs none");
     }
     scree::replace_grains(*medium, depth, world, parts, frame_warnings, progress);
+}
+
+/// Finds how far places in media are from everything, and the shells that light may go through there.
+void WorldBuilder::Impl::make_shells(World& world, const Progress& progress, Precompute precompute)
+{
+    const bool to_come = precompute == Precompute::never && (plan.has_grain_medium || !scene.media.empty());
+    const auto skip = [&](const char* why) { parts.push_back({"shells", false, why}); };
+    hash = mix64(hash ^ (plan.has_shells ? 2 + static_cast<uint64_t>(plan.stf_form) : 1));
+    if (to_come) {
+        if (plan.has_shells) parts.push_back({"shells", true, "to be made, where a medium is thicker than a mean free path"});
+        else skip("light is followed from scattering to scattering in media");
+        return;
+    }
+    const Stopwatch watch;
+    world.clearance = make_clearance(world, progress);
+    if (world.clearance) parts.push_back({"distances within media", true, "", watch.seconds(), world.clearance->bytes()});
+    if (world.regions.empty()) return skip("there is no medium");
+    if (!plan.has_shells) return skip("light is followed from scattering to scattering in media");
+    if (!shells) shells = std::make_unique<StfCache>(cache_folder(), stf_options(plan.accuracy));
+    add_shells(plan.stf_form, *shells, world, parts, frame_warnings, progress);
 }
 
 LightSet WorldBuilder::Impl::make_lights(const World& world)
@@ -360,6 +414,7 @@ WorldBuilder::~WorldBuilder() = default;
 
 const SceneDescription& WorldBuilder::scene() const { return impl_->scene; }
 size_t WorldBuilder::frame_count() const { return impl_->series ? impl_->series->frame_count() : 1; }
+const TransportPlan& WorldBuilder::plan() const { return impl_->plan; }
 const std::vector<PartReport>& WorldBuilder::parts() const { return impl_->parts; }
 uint64_t WorldBuilder::scene_hash() const { return impl_->hash; }
 std::shared_ptr<const EmbreeDevice> WorldBuilder::device() const { return impl_->device; }
@@ -383,7 +438,8 @@ std::shared_ptr<const World> WorldBuilder::build(size_t frame, const Progress& p
     impl_->frame_warnings.clear();
     impl_->hash = hash_bytes(impl_->scene.canonical.data(), impl_->scene.canonical.size(), frame);
     auto world = std::make_shared<World>();
-    const TypeRequest request{precompute, progress, impl_->parts, impl_->frame_warnings};
+    const TypeRequest request{impl_->plan, precompute, progress, impl_->parts, impl_->frame_warnings};
+    impl_->decide({});
     if (impl_->scene.assembly && impl_->scene.assembly->fill) {
         impl_->make_fill(request, *world);
     } else if (impl_->scene.assembly) {
@@ -402,6 +458,7 @@ std::shared_ptr<const World> WorldBuilder::build(size_t frame, const Progress& p
     if (impl_->scene.media.empty()) impl_->parts.push_back({"medium", false, "the scene has none"});
     impl_->replace_grains(*world, progress, precompute);
     world->lights = impl_->make_lights(*world);
+    impl_->make_shells(*world, progress, precompute);
     return world;
 }
 

@@ -31,6 +31,7 @@ public:
     /// Reads frame `frame` and everything it needs. Throws InputError, or Cancelled from within what is precomputed.
     std::shared_ptr<const World> build(size_t frame, const Progress& progress = {}, Precompute precompute = Precompute::now);
     /// The parts of the last world built, in order.
+    const TransportPlan& plan() const; ///< of the frame built last
     const std::vector<PartReport>& parts() const;
     /// Hash of the scene's text and of what the last world was built from.
     uint64_t scene_hash() const;

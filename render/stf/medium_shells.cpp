@@ -2,43 +2,121 @@
 
 namespace scree {
 
-MediumShells::MediumShells(std::shared_ptr<const Stf> stf, const HomogeneousMedium& medium, size_t count, StfForm form)
-    : stf_(std::move(stf)), form_(form), sigma_t_(medium.sigma_t().x), albedo_(medium.albedo()), phase_table_(medium.phase_table()), phase_(medium.phase()), sampled_albedo_(max_component(albedo_))
+namespace {
+
+constexpr double least_albedo = 0.8; ///< that samplers are made for, where it varies: below, shells carry little
+constexpr double albedo_step = 2;  ///< of -log(albedo), where it varies
+
+/// The albedos, growing, that records are drawn by in a medium of varying albedo: the last is not below any of it.
+std::vector<float> sampled_albedos(float low, float high)
 {
-    for (size_t i = 0; i < std::min(count, stf_->shells.size()); ++i) shells_.emplace_back(stf_->shells[i], sampled_albedo_);
+    if (low == high) return {high};
+    std::vector<float> albedos{high};
+    const double end = -std::log(std::max(double{low}, least_albedo));
+    double depth = std::max(-std::log(double{high}), 1e-4);
+    for (depth *= albedo_step; depth < end; depth *= albedo_step) albedos.insert(albedos.begin(), static_cast<float>(std::exp(-depth)));
+    return albedos;
 }
 
-bool MediumShells::fit(double clear, double u, FittingShell& fitting) const
+} // namespace
+
+MediumShells::MediumShells(std::shared_ptr<const Stf> stf, const HomogeneousMedium& medium, size_t count, StfForm form)
+    : form_(form), stfs_{std::move(stf)}, phase_table_(medium.phase_table())
 {
-    double radius = clear * sigma_t_;
-    fitting.shell = nullptr;
+    everywhere_.sigma_t = medium.sigma_t().x;
+    everywhere_.albedo = medium.albedo();
+    everywhere_.sampled_albedo = max_component(medium.albedo());
+    everywhere_.phase = medium.phase();
+    add_samplers(*stfs_[0], everywhere_.sampled_albedo, count);
+    bytes_ += stfs_[0]->bytes();
+}
+
+MediumShells::MediumShells(std::vector<std::shared_ptr<const Stf>> stfs, std::shared_ptr<const GridMedium> medium, std::unique_ptr<const GridUniformity> uniformity, size_t count, StfForm form)
+    : form_(form), stfs_(std::move(stfs)), grid_(std::move(medium)), uniformity_(std::move(uniformity))
+{
+    const GridUniformity::Extremes extremes = uniformity_->extremes();
+    albedos_ = sampled_albedos(std::clamp(extremes.albedo_low, 0.0f, 1.0f), std::clamp(extremes.albedo_high, 0.0f, 1.0f));
+    for (const auto& stf : stfs_) {
+        for (const float albedo : albedos_) add_samplers(*stf, albedo, count);
+        bytes_ += stf->bytes();
+    }
+    bytes_ += uniformity_->bytes();
+}
+
+void MediumShells::add_samplers(const Stf& stf, double albedo, size_t count)
+{
+    Samplers& shells = samplers_.emplace_back();
+    for (size_t i = 0; i < std::min(count, stf.shells.size()); ++i) {
+        shells.emplace_back(stf.shells[i], albedo);
+        bytes_ += shells.back().bytes();
+    }
+}
+
+void MediumShells::choose(const Samplers& shells, size_t number, double radius, double u, FittingShell& fitting) const
+{
+    fitting.radius = Stf::radius(number);
+    if (form_ == StfForm::interpolated && number + 1 < shells.size()) {
+        if (u < std::log2(radius / Stf::radius(number)) * Stf::steps_per_octave) ++number;
+        fitting.radius = radius;
+    }
+    fitting.shell = &shells[number];
+}
+
+bool MediumShells::fit(const V3d& place, double clear, double u, FittingShell& fitting) const
+{
+    if (grid_) return fit_in_grid(place, clear, u, fitting);
+    const double radius = clear * everywhere_.sigma_t;
     if (form_ == StfForm::diffusion) {
         if (!(radius >= Stf::radius(0)) || !std::isfinite(radius)) return false;
+        fitting = everywhere_;
+        fitting.radius = radius;
     } else {
-        const int k = Stf::largest(radius, shells_.size());
-        if (k < 0) return false;
-        auto number = static_cast<size_t>(k);
-        if (form_ == StfForm::interpolated && number + 1 < shells_.size()) {
-            if (u < std::log2(radius / Stf::radius(number)) * Stf::steps_per_octave) ++number;
-        } else {
-            radius = Stf::radius(number);
-        }
-        fitting.shell = &shells_[number];
+        const Samplers& shells = samplers_[0];
+        const int number = Stf::largest(radius, shells.size());
+        if (number < 0) return false;
+        fitting = everywhere_;
+        choose(shells, static_cast<size_t>(number), radius, u, fitting);
     }
-    fitting.radius = radius;
-    fitting.length = std::min(clear, radius / sigma_t_);
-    fitting.sigma_t = sigma_t_;
-    fitting.albedo = albedo_;
-    fitting.sampled_albedo = sampled_albedo_;
-    fitting.phase = phase_;
+    fitting.length = std::min(clear, fitting.radius / fitting.sigma_t);
     return true;
 }
 
-uint64_t MediumShells::bytes() const
+bool MediumShells::fit_in_grid(const V3d& place, double clear, double u, FittingShell& fitting) const
 {
-    uint64_t records = 0;
-    for (const StfShell& shell : stf_->shells) records += shell.exits.size() + shell.events.size();
-    return stf_->bytes() + 8 * records; // and the alias tables
+    if (!(clear > 0)) return false;
+    const double sigma_t = grid_->sigma_t(place).x;
+    const bool diffuses = form_ == StfForm::diffusion;
+    const size_t count = diffuses ? 1 << 10 : samplers_[0].size();
+    int number = Stf::largest(clear * sigma_t, count);
+    if (number < 0) return false;
+    fitting.sigma_t = sigma_t;
+    fitting.albedo = grid_->albedo(place);
+    const double g = grid_->g(place);
+    double radius = std::min(clear * sigma_t, Stf::radius(count - 1) * 2);
+    while (!uniformity_->holds(place, radius / sigma_t, sigma_t, fitting.albedo, g)) {
+        number -= Stf::steps_per_octave; // half as large
+        if (number < 0) return false;
+        radius = Stf::radius(static_cast<size_t>(number));
+    }
+    fitting.phase = PhaseFunction(g);
+    if (diffuses) {
+        fitting.radius = radius;
+    } else {
+        const auto above = std::ranges::upper_bound(stfs_, g, {}, [](const auto& stf) { return stf->phase.mean_cosine(); });
+        size_t of = above == stfs_.begin() ? 0 : static_cast<size_t>(above - stfs_.begin()) - 1;
+        if (above != stfs_.begin() && above != stfs_.end()) {
+            const double g0 = stfs_[of]->phase.mean_cosine(), part = (g - g0) / ((*above)->phase.mean_cosine() - g0);
+            if (u < part) ++of;
+            u = u < part ? u / part : (u - part) / (1 - part); // to be used again
+        }
+        const float most = max_component(fitting.albedo);
+        size_t albedo = static_cast<size_t>(std::ranges::lower_bound(albedos_, most) - albedos_.begin());
+        albedo = std::min(albedo, albedos_.size() - 1);
+        fitting.sampled_albedo = albedos_[albedo];
+        choose(samplers_[of * albedos_.size() + albedo], static_cast<size_t>(number), radius, u, fitting);
+    }
+    fitting.length = std::min(clear, fitting.radius / sigma_t);
+    return true;
 }
 
 } // namespace scree

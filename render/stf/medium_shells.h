@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/medium/grid_uniformity.h"
 #include "render/medium/homogeneous_medium.h"
 #include "render/stf/shell_sampler.h"
 #include "render/stf/stf_form.h"
@@ -29,28 +30,39 @@ struct FittingShell {
     }
 };
 
-/// The shells that light may go through in a medium; safe to use from many threads.
+/// The shells that light may go through in a medium, which is achromatic; safe to use from many threads.
 class MediumShells {
 public:
-    /// stf: of the medium's phase function (or, by form, of one that stands for it). The medium is achromatic.
-    /// count: of its shells to use.
+    /// stf: of the medium's phase function (or, by form, of one that stands for it). count: of its shells to use.
     MediumShells(std::shared_ptr<const Stf> stf, const HomogeneousMedium& medium, size_t count, StfForm form);
+    /// stfs: of growing g, from the least to the largest in the medium; a shell where g is between two is of either, by chance.
+    MediumShells(std::vector<std::shared_ptr<const Stf>> stfs, std::shared_ptr<const GridMedium> medium, std::unique_ptr<const GridUniformity> uniformity, size_t count, StfForm form);
 
-    /// The largest shell around a place, where nothing but the medium is within `clear`. False: none fits. u: in (0, 1), for the interpolated form.
-    bool fit(double clear, double u, FittingShell& fitting) const;
+    /// The largest shell around a place, where nothing but the medium is within `clear`. False: none fits. u: in (0, 1), where the choice is left to chance.
+    bool fit(const V3d& place, double clear, double u, FittingShell& fitting) const;
 
     StfForm form() const { return form_; }
-    uint64_t bytes() const;
+    bool needs_chance() const { return grid_ || form_ == StfForm::interpolated; }
+    uint64_t bytes() const { return bytes_; }
 
 private:
-    std::shared_ptr<const Stf> stf_;
+    /// Samplers of one phase function by shell, for one albedo.
+    using Samplers = std::vector<ShellSampler>;
+
+    bool fit_in_grid(const V3d& place, double clear, double u, FittingShell& fitting) const;
+    /// Puts in the shell of a number, or one as large as fits; radius: that fits, in mean free paths.
+    void choose(const Samplers& shells, size_t number, double radius, double u, FittingShell& fitting) const;
+    void add_samplers(const Stf& stf, double albedo, size_t count);
+
     StfForm form_;
-    double sigma_t_;
-    C3f albedo_;
+    uint64_t bytes_ = 0;
+    std::vector<std::shared_ptr<const Stf>> stfs_;
+    std::vector<Samplers> samplers_; ///< by stf, and within by albedo
+    std::vector<float> albedos_;     ///< that they are for, growing
+    FittingShell everywhere_;        ///< of a homogeneous medium
     std::shared_ptr<const PhaseTable> phase_table_;
-    PhaseFunction phase_;
-    float sampled_albedo_;
-    std::vector<ShellSampler> shells_;
+    std::shared_ptr<const GridMedium> grid_;
+    std::unique_ptr<const GridUniformity> uniformity_;
 };
 
 } // namespace scree

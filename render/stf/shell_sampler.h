@@ -11,6 +11,7 @@ public:
     /// 0 <= albedo <= 1. The shell must outlive this.
     ShellSampler(const StfShell& shell, double albedo);
 
+    uint64_t bytes() const { return sizeof(*this) + exits_.bytes() + events_.bytes(); }
     double radius() const { return shell_->radius; }
     /// What is left of the walks that scatter: the mean of albedo^events.
     double survival() const { return survival_; }

@@ -83,7 +83,7 @@ struct Cored {
     {
         std::vector<std::string> remarks;
         const auto medium = make_grain_medium(world, form, {});
-        replace_grains(*medium, depth, world, parts, remarks, {});
+        replace_grains(*medium, {depth < 0, depth, 0}, world, parts, remarks, {});
         tracer = std::make_unique<Tracer>(std::make_shared<EmbreeDevice>(), world);
     }
 };
@@ -170,7 +170,7 @@ TEST(GrainMedium, OfAFillVariesAsItsMixtureDoes)
         std::vector<PartReport> parts;
         std::vector<std::string> remarks;
         const auto medium = make_grain_medium(world, EquivalentForm::formula, {});
-        replace_grains(*medium, 4, world, parts, remarks, {});
+        replace_grains(*medium, {false, 4, 0}, world, parts, remarks, {});
         return world;
     };
     const World same = make(false), board = make(true);

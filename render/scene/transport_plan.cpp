@@ -1,0 +1,133 @@
+#include "render/scene/transport_plan.h"
+
+#include <fmt/format.h>
+
+namespace scree {
+
+namespace {
+
+/// What an accuracy sets where the user has not. Errors: see the README's table of accuracies.
+struct Switches {
+    uint32_t explicit_grains;
+    double least_pixels, depth_radii, depth_flights;
+};
+
+Switches switches_of(Accuracy accuracy)
+{
+    switch (accuracy) {
+    case Accuracy::reference: return {all_grains, 0, 0, 0};
+    case Accuracy::high: return {1, 0.5, 8, 5};
+    case Accuracy::standard: return {1, 1, 4, 2.5};
+    case Accuracy::draft: return {0, 0, 2, 1};
+    }
+    return {};
+}
+
+/// Fewer than these are traced as they are: what proxies and a medium need would take longer to make than it saves.
+constexpr uint64_t few_grains = 2000;
+
+/// Light that meets fewer than these is followed from grain to grain sooner than through a medium.
+constexpr double few_encounters = 4;
+
+/// A medium pays where there is more of it than of the grains above.
+constexpr double least_core = 1.5; ///< half the least extent of the grains, in depths
+
+double half_thickness(const GrainFacts& facts)
+{
+    const V3d extent = facts.bounds.size();
+    return facts.bounds.isEmpty() ? 0 : 0.5 * std::min({extent.x, extent.y, extent.z});
+}
+
+/// How large the largest grain can look at most, in pixels.
+double largest_in_pixels(const CameraDescription& camera, const FilmDescription& film, const GrainFacts& facts)
+{
+    const V3d view = (camera.target - camera.origin).normalized();
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int corner = 0; corner < 8; ++corner) {
+        const V3d p((corner & 1 ? facts.bounds.max : facts.bounds.min).x, (corner & 2 ? facts.bounds.max : facts.bounds.min).y, (corner & 4 ? facts.bounds.max : facts.bounds.min).z);
+        nearest = std::min(nearest, (p - camera.origin).dot(view));
+    }
+    const PixelSize pixel = pixel_size(camera, film);
+    const double width = pixel.width + pixel.slope * std::max(0.0, nearest);
+    return width > 0 ? 2 * facts.largest_radius / width : std::numeric_limits<double>::infinity();
+}
+
+} // namespace
+
+PixelSize pixel_size(const CameraDescription& camera, const FilmDescription& film)
+{
+    if (camera.kind == CameraKind::orthographic) return {camera.width / film.width, 0};
+    return {0, 2 * std::tan(0.5 * camera.fov * pi / 180) / std::min(film.width, film.height)};
+}
+
+std::string TransportPlan::name() const
+{
+    return kind == IntegratorKind::automatic && explicit_grains == all_grains && !has_grain_medium && !has_shells ? "ept" : integrator_names[static_cast<size_t>(kind)];
+}
+
+double rough_loss(const Material& material, double radius)
+{
+    switch (material.kind) {
+    case MaterialKind::lambert: return 1 - max_component(material.reflectance);
+    case MaterialKind::dielectric: {
+        const float least = std::min({material.absorption.x, material.absorption.y, material.absorption.z});
+        const double within = 4.0 / 3 * 1.3 * radius; // a mean chord, and half of another on the way that light takes by reflections
+        return 1 - max_component(material.tint) * std::exp(-least * within);
+    }
+    case MaterialKind::conductor: return 1 - 0.9 * max_component(material.tint);
+    }
+    return 1;
+}
+
+TransportPlan plan_transport(const IntegratorDescription& integrator, const CameraDescription& camera, const FilmDescription& film, const GrainFacts& facts)
+{
+    TransportPlan plan;
+    plan.kind = integrator.kind;
+    plan.accuracy = integrator.accuracy;
+    plan.medium_form = integrator.medium_form;
+    plan.stf_form = integrator.stf_form;
+    switch (integrator.kind) {
+    case IntegratorKind::ept: plan.why = "every grain as it is"; break;
+    case IntegratorKind::ppt:
+        plan.explicit_grains = integrator.explicit_grains.value_or(0);
+        plan.why = "proxies stand for grains";
+        break;
+    case IntegratorKind::stf:
+    case IntegratorKind::vpt:
+        plan.has_grain_medium = plan.replaces_all = facts.count > 0;
+        plan.why = "a medium stands for all grains";
+        break;
+    case IntegratorKind::automatic: {
+        const Switches switches = switches_of(integrator.accuracy);
+        plan.depth_radii = switches.depth_radii;
+        plan.depth_flights = switches.depth_flights;
+        if (integrator.accuracy == Accuracy::reference) plan.why = "every grain as it is: the accuracy is that of a reference";
+        else if (facts.count < few_grains) plan.why = fmt::format("every grain as it is: there are fewer than {}", few_grains);
+        else if (facts.encounters() < few_encounters) plan.why = fmt::format("every grain as it is: light meets some {:.2g} of them before it is absorbed", facts.encounters());
+        else {
+            plan.explicit_grains = switches.explicit_grains;
+            plan.least_pixels = switches.least_pixels;
+            plan.why = "proxies stand for all grains but the first of a path";
+            if (const double pixels = largest_in_pixels(camera, film, facts); plan.explicit_grains > 0 && pixels < plan.least_pixels) {
+                plan.explicit_grains = 0;
+                plan.why = fmt::format("proxies stand for grains: the largest looks {:.2g} pixels wide", pixels);
+            } else if (plan.explicit_grains == 0) {
+                plan.why = "proxies stand for grains: the accuracy is that of a draft";
+            }
+            plan.has_grain_medium = half_thickness(facts) > least_core * plan.depth_radii * facts.mean_radius;
+        }
+        plan.explicit_grains = integrator.explicit_grains.value_or(plan.explicit_grains);
+        break;
+    }
+    }
+    if (integrator.grain_depth && !plan.replaces_all && facts.count > 0) {
+        plan.depth_radii = *integrator.grain_depth;
+        plan.depth_flights = 0;
+        plan.has_grain_medium = half_thickness(facts) > plan.depth_radii * facts.mean_radius;
+    }
+    plan.has_shells = integrator.shells.value_or(integrator.kind == IntegratorKind::stf || (integrator.kind == IntegratorKind::automatic && integrator.accuracy != Accuracy::reference));
+    if (facts.count == 0) plan.why = "the scene has no grains";
+    return plan;
+}
+
+} // namespace scree

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "render/scene/scene_description.h"
+
+#include <Imath/ImathBox.h>
+
+#include <limits>
+#include <string>
+
+namespace scree {
+
+inline constexpr uint32_t all_grains = std::numeric_limits<uint32_t>::max();
+
+/// What is known of a scene's grains before anything is made of them; lengths in the scene's unit.
+struct GrainFacts {
+    uint64_t count = 0;
+    double mean_radius = 0, largest_radius = 0;
+    Imath::Box3d bounds;    ///< around all of them
+    /// Part of the light that a grain they have absorbs in the mean, about, in the brightest channel; weighed by cross-section.
+    double loss = 0;
+
+    /// How many grains light meets among them in the mean, about, before it is back out or absorbed: 1 / sqrt(1 - albedo), of an isotropic half-space.
+    double encounters() const { return 1 / std::sqrt(std::max(loss, 1e-12)); }
+};
+
+/// What a grain of a material absorbs in its brightest channel, about; radius in the unit of the absorption.
+double rough_loss(const Material& material, double radius);
+
+/// How light is traced among a scene's grains and media: every switch, as the integrator and its accuracy have set it or the user has.
+struct TransportPlan {
+    IntegratorKind kind = IntegratorKind::ept;
+    Accuracy accuracy = Accuracy::standard;
+    uint32_t explicit_grains = all_grains; ///< grains of a path that are traced as they are; further ones are proxies
+    double least_pixels = 0;               ///< grains that look smaller in the picture are proxies from the first on
+    bool has_grain_medium = false;         ///< a medium stands for some grains,
+    bool replaces_all = false;             ///< or for all
+    double depth_radii = 0, depth_flights = 0; ///< below every face it begins: mean radii, but not fewer mean flights of the medium
+    EquivalentForm medium_form = EquivalentForm::decay;
+    bool has_shells = false;               ///< light goes through shells in media
+    StfForm stf_form = StfForm::full;
+    std::string why;                       ///< why grains are taken in this way
+
+    bool has_proxies() const { return explicit_grains != all_grains && !replaces_all; }
+    /// Whether a path can meet grains as they are.
+    bool has_exemplars() const { return explicit_grains > 0 && !replaces_all; }
+    bool needs_gsdfs() const { return has_proxies() || has_grain_medium; }
+    /// In a word for a picture's header: what it does, for auto.
+    std::string name() const;
+};
+
+/// Decides. Facts of no grains: the scene has none.
+TransportPlan plan_transport(const IntegratorDescription& integrator, const CameraDescription& camera, const FilmDescription& film, const GrainFacts& facts);
+
+/// How wide a pixel is at a distance along the view from the camera, in the unit of the camera's lengths: at distance 0, and more for each unit.
+struct PixelSize {
+    double width = 0, slope = 0;
+};
+PixelSize pixel_size(const CameraDescription& camera, const FilmDescription& film);
+
+} // namespace scree
