@@ -19,7 +19,8 @@ struct TriangleView {
 
 /// Finds how far it is from a place to the nearest of many triangles, of which it keeps its own copy.
 ///
-/// A tree of boxes in float, eight a node, over blocks of up to eight triangles.
+/// A tree of boxes, eight a node, over blocks of up to eight triangles. Boxes lie along what is in them (Gottschalk, Lin and Manocha 1996): those of a smooth
+/// surface are thin, and few of them are as near as the nearest triangle.
 class TriangleTree {
 public:
     static constexpr uint32_t none = ~uint32_t{0};
@@ -49,9 +50,17 @@ private:
     static constexpr size_t deepest = 60;
 
     struct alignas(64) Node {
-        std::array<std::array<float, width>, 3> lo, hi; ///< by axis and child; turned inside out where there is none
-        std::array<uint32_t, width> child;
+        using Lanes = std::array<float, width>;
+
+        std::array<Lanes, 3> middle{};              ///< by axis
+        std::array<std::array<Lanes, 3>, 3> axes{}; ///< rows: nearly unit vectors along the box's edges
+        std::array<Lanes, 3> half{};                ///< of the edges
+        std::array<uint32_t, width> child{};
+        uint32_t count = 0;
     };
+
+    /// Lower bounds of the squares of the distances from a place to a node's boxes.
+    static std::array<float, width> squares(const Node& node, const V3d& place);
 
     std::vector<Node> nodes_; ///< the first is the root
     std::vector<TriangleBlock> blocks_;
