@@ -43,7 +43,7 @@ struct Range {
     size_t count() const { return last - first; }
 };
 
-constexpr size_t bins = 16, worth_a_task = 4096, halving_depth = 24;
+constexpr size_t bins = 16, worth_a_task = 4096, halving_depth = 24, worth_turning = 64;
 
 } // namespace
 
@@ -117,6 +117,7 @@ private:
         }
         TriangleTree::Node node;
         node.count = static_cast<uint32_t>(parts.size());
+        for (auto& half : node.half) half.fill(-0x1p60f);
         for (size_t k = 0; k < parts.size(); ++k) {
             set_box(node, k, parts[k]);
             const bool block = parts[k].count() <= TriangleBlock::lanes;
@@ -153,11 +154,16 @@ private:
             if (along.length() > 0) {
                 // A second time: the first may have left much of the normal.
                 along = (along - normal * normal.dot(along)).normalized();
-                const std::array<V3f, 3> turned{V3f(normal), V3f(along), V3f(normal.cross(along).normalized())};
-                V3d low, high;
-                measure(turned, range, low, high);
-                const auto area = [](const V3d& d) { return d.x * d.y + d.y * d.z + d.z * d.x; };
-                if (area(high - low) < area(hi - lo)) {
+                const V3d across = normal.cross(along).normalized();
+                // Small boxes, which are many, are worth a search: one along the diagonal of a patch is twice as large as it need be.
+                const int angles = range.count() <= worth_turning ? 6 : 1;
+                for (int angle = 0; angle < angles; ++angle) {
+                    const double c = std::cos(pi / 2 * angle / angles), s = std::sin(pi / 2 * angle / angles);
+                    const std::array<V3f, 3> turned{V3f(normal), V3f(along * c + across * s), V3f(across * c - along * s)};
+                    V3d low, high;
+                    measure(turned, range, low, high);
+                    const auto area = [](const V3d& d) { return d.x * d.y + d.y * d.z + d.z * d.x; };
+                    if (area(high - low) >= area(hi - lo)) continue;
                     axes = turned;
                     lo = low;
                     hi = high;
