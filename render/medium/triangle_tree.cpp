@@ -9,7 +9,7 @@ namespace scree {
 namespace {
 
 /// The least of squares, of which none is negative: they are in the order of their bits, the last three of which are given to the lane. Lowered by up to 2^-20.
-uint32_t least_with_lane(const std::array<float, 8>& squares)
+inline uint32_t least_with_lane(const std::array<float, 8>& squares)
 {
     std::array<uint32_t, 8> key = std::bit_cast<std::array<uint32_t, 8>>(squares);
     for (uint32_t k = 0; k < 8; ++k) key[k] = (key[k] & ~uint32_t{7}) | k;
@@ -87,8 +87,8 @@ TriangleTree::Entries TriangleTree::entries(const V3d& middle, double radius) co
         std::array<Entry, width> near;
         size_t children = 0;
         bool down = true;
-        for (uint32_t k = 0; k < node.count; ++k) {
-            if (!(square[k] <= reach)) continue;
+        for (size_t k = 0; k < width; ++k) {
+            if (node.child[k] == 0 || !(square[k] <= reach)) continue;
             // In order; equal ones by their places in the node, which do not depend on which thread made what.
             size_t to = children++;
             for (; to > 0 && near[to - 1].square > square[k]; --to) near[to] = near[to - 1];
@@ -118,7 +118,7 @@ double TriangleTree::distance(const V3d& place, uint32_t& block, const Entries& 
     // Boxes' squares are off by less than 2^-20 of them (axes are off by 2^-25 in each component), and by what underflows.
     const auto limit_of = [&lost](double d) { return static_cast<float>(d * d * ((1 - lost) * (1 - lost) * (1 + 0x1p-19)) + 0x1p-118); };
     float limit = limit_of(best);
-    Entry stack[deepest * (width - 1) + width + most_entries];
+    Entry stack[deepest * (width - 1) + 2 * width + most_entries];
     size_t waiting = 0;
     // The root is of no use as another entry.
     for (size_t k = most_entries; k-- > 1;)
@@ -140,11 +140,12 @@ double TriangleTree::distance(const V3d& place, uint32_t& block, const Entries& 
             const Node& node = nodes_[next];
             const std::array<float, width> square = squares(node, split);
             const uint32_t nearest = least_with_lane(square) & 7;
-            for (uint32_t k = 0; k < node.count; ++k) {
+            // Without branches, which would often go the wrong way.
+            for (uint32_t k = 0; k < width; ++k) {
                 stack[waiting] = {square[k], node.child[k]};
-                waiting += static_cast<size_t>(square[k] < limit) & static_cast<size_t>(k != nearest);
+                waiting += static_cast<size_t>(square[k] < limit) & static_cast<size_t>(k != nearest) & static_cast<size_t>(node.child[k] != 0);
             }
-            if (square[nearest] < limit && nearest < node.count) {
+            if (square[nearest] < limit && node.child[nearest] != 0) {
                 next = node.child[nearest];
                 continue;
             }

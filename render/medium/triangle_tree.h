@@ -60,8 +60,7 @@ private:
         std::array<Lanes, 3> middle{};              ///< by axis
         std::array<std::array<Lanes, 3>, 3> axes{}; ///< rows: nearly unit vectors along the box's edges
         std::array<Lanes, 3> half{};                ///< of the edges; very negative where there is no child, so that this is never the nearest
-        std::array<uint32_t, width> child{};
-        uint32_t count = 0;
+        std::array<uint32_t, width> child{};        ///< 0: none, which are the last
     };
 
     /// A place as the sum of two in float.

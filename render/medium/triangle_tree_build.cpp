@@ -116,7 +116,6 @@ private:
             parts.push_back(high);
         }
         TriangleTree::Node node;
-        node.count = static_cast<uint32_t>(parts.size());
         for (auto& half : node.half) half.fill(-0x1p60f);
         for (size_t k = 0; k < parts.size(); ++k) {
             set_box(node, k, parts[k]);
