@@ -26,10 +26,11 @@ public:
     /// Knows nothing: the clearance is 0 everywhere.
     ClearanceField() = default;
     /// box: where places will be asked about; triangles beyond it count as well. voxels: along its longest edge. Throws InputError (an infinite
-    /// box or triangle, voxels not in 1..1024), Cancelled.
+    /// box or triangle, one 2^100 boxes away, a box 2^50 times its size from the origin, voxels not in 1..1024), Cancelled.
     ClearanceField(std::span<const TriangleView> meshes, const Imath::Box3d& box, const Progress& progress, int voxels = 64);
 
-    /// A lower bound of the distance from a place to the nearest triangle, at least 0.97 of it; 0 outside of the box; infinite where there are none.
+    /// A lower bound of the distance from a place to the nearest triangle; 0 outside of the box; infinite where there are none. From 1e-6 of the box on at
+    /// least 0.97 of it in all tests, mostly above 0.999 near triangles; less only within 1e-5 of needles whose normals double hardly knows.
     double clearance(const V3d& place) const
     {
         const V3d index = (place - origin_) * per_length_;
