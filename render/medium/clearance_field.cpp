@@ -10,7 +10,8 @@ namespace scree {
 namespace {
 
 constexpr double least_square = 8;   ///< in voxels: below, the interpolation is not tried
-constexpr double most_lost = 0x1p-6; ///< of the square, in the middle of an octant; elsewhere it may be some more
+constexpr size_t entry_bits = 21;
+constexpr double most_lost = 0.03;   ///< of the square, in the middle of an octant; elsewhere it may be some more
 
 float round_down(double x)
 {
@@ -44,15 +45,30 @@ ClearanceField::ClearanceField(std::span<const TriangleView> meshes, const Imath
     progress.update("clearance", 1);
 }
 
-double ClearanceField::near(const V3d& place) const
+double ClearanceField::near(const V3d& place, int x, int y, int z) const
 {
-    return tree_.distance(place * scale_) / scale_;
+    std::atomic<uint64_t>& word = entries_[static_cast<size_t>(x) * step_[0] + static_cast<size_t>(y) * step_[1] + static_cast<size_t>(z)];
+    uint64_t packed = word.load(std::memory_order_relaxed);
+    if (packed == 0) {
+        const V3d middle = (origin_ + V3d(x + 0.5, y + 0.5, z + 0.5) * voxel_) * scale_;
+        // Half a diagonal, and what places and lattice are rounded by, at 2^50 boxes from the origin as well.
+        const double radius = (std::sqrt(0.75) * (1 + 0x1p-20)) * voxel_ * scale_ + 0x1p-48 * (std::abs(middle.x) + std::abs(middle.y) + std::abs(middle.z));
+        const TriangleTree::Entries found = tree_.entries(middle, radius);
+        packed = uint64_t{1} << 63;
+        for (size_t k = 0; k < found.size(); ++k) packed |= uint64_t{found[k]} << (entry_bits * k);
+        word.store(packed, std::memory_order_relaxed);
+    }
+    constexpr uint64_t mask = (uint64_t{1} << entry_bits) - 1;
+    TriangleTree::Entries from;
+    for (size_t k = 0; k < from.size(); ++k) from[k] = static_cast<uint32_t>(packed >> (entry_bits * k) & mask);
+    return tree_.distance(place * scale_, from) / scale_;
 }
 
 void ClearanceField::fill_squares(const Progress& progress)
 {
     const std::array<size_t, 3> count{static_cast<size_t>(size_[0]) + 1, static_cast<size_t>(size_[1]) + 1, static_cast<size_t>(size_[2]) + 1};
     squares_.assign(count[0] * count[1] * count[2], 0);
+    entries_ = std::make_unique<std::atomic<uint64_t>[]>(squares_.size());
     std::vector<V3f> nearest(squares_.size()); // to lattice points, in voxels from the origin
     const double per_voxel = per_length_ / scale_;
     const V3d first = origin_ * scale_;
@@ -66,7 +82,7 @@ void ClearanceField::fill_squares(const Progress& progress)
             const V3d index(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)), place = (origin_ + index * voxel_) * scale_;
             const double distance = std::max(0.0, tree_.distance(place, block) * per_voxel - rounding);
             squares_[line * count[2] + z] = round_down(distance * distance * (1 - 0x1p-50));
-            nearest[line * count[2] + z] = V3f((tree_.nearest(block, place) - first) * per_voxel);
+            nearest[line * count[2] + z] = V3f((tree_.nearest_point(block, place) - first) * per_voxel);
         }
     });
     if (progress.cancelled()) throw Cancelled();

@@ -7,8 +7,10 @@
 #include <Imath/ImathBox.h>
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -24,10 +26,11 @@ public:
     /// Knows nothing: the clearance is 0 everywhere.
     ClearanceField() = default;
     /// box: where places will be asked about; triangles beyond it count as well. voxels: along its longest edge. Throws InputError (an infinite
-    /// box or triangle, voxels not in 1..1024), Cancelled.
-    ClearanceField(std::span<const TriangleView> meshes, const Imath::Box3d& box, const Progress& progress, int voxels = 100);
+    /// box or triangle, one 2^100 boxes away, a box 2^50 times its size from the origin, voxels not in 1..1024), Cancelled.
+    ClearanceField(std::span<const TriangleView> meshes, const Imath::Box3d& box, const Progress& progress, int voxels = 64);
 
-    /// A lower bound of the distance from a place to the nearest triangle, at least 0.97 of it; 0 outside of the box; infinite where there are none.
+    /// A lower bound of the distance from a place to the nearest triangle; 0 outside of the box; infinite where there are none. From 1e-6 of the box on at
+    /// least 0.97 of it in all tests, mostly above 0.999 near triangles; less only within 1e-5 of needles whose normals double hardly knows.
     double clearance(const V3d& place) const
     {
         const V3d index = (place - origin_) * per_length_;
@@ -37,17 +40,17 @@ public:
         const size_t corner = (static_cast<size_t>(x) * step_[0]) + static_cast<size_t>(y) * step_[1] + static_cast<size_t>(z);
         if (squares_.empty()) return std::numeric_limits<double>::infinity();
         const float* s = &squares_[corner];
-        if (!(s[0] > 0)) return near(place);
+        if (!(s[0] > 0)) return near(place, x, y, z);
         return std::sqrt(interpolate(s, index.x - x, index.y - y, index.z - z)) * rounded_voxel_;
     }
 
     /// Of all places in the box, or more than that.
     double largest() const { return largest_; }
     double voxel() const { return voxel_; }
-    uint64_t bytes() const { return squares_.size() * sizeof(float) + tree_.bytes(); }
+    uint64_t bytes() const { return squares_.size() * (sizeof(float) + sizeof(uint64_t)) + tree_.bytes(); }
 
 private:
-    double near(const V3d& place) const;
+    double near(const V3d& place, int x, int y, int z) const;
     /// The square of the bound, in voxels, at fractions of a voxel from its lower corner.
     double interpolate(const float* s, double tx, double ty, double tz) const
     {
@@ -65,6 +68,9 @@ private:
     std::array<size_t, 2> step_{0, 0};
     std::vector<float> squares_; ///< of distances of lattice points, in voxels, rounded down; negative or 0 where the tree is to be asked in the voxel above
     TriangleTree tree_;
+    /// Of voxels where the tree is asked: its entries for them, of 21 bits each, and a bit that is set. Found when first asked; whoever else finds them
+    /// meanwhile finds the same, so that no order is needed.
+    std::unique_ptr<std::atomic<uint64_t>[]> entries_;
 };
 
 } // namespace scree

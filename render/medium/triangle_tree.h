@@ -19,7 +19,8 @@ struct TriangleView {
 
 /// Finds how far it is from a place to the nearest of many triangles, of which it keeps its own copy.
 ///
-/// A tree of boxes in float, eight a node, over blocks of up to eight triangles.
+/// A tree of boxes, eight a node, over blocks of up to eight triangles. Boxes lie along what is in them (Gottschalk, Lin and Manocha 1996): those of a smooth
+/// surface are thin, and few of them are as near as the nearest triangle.
 class TriangleTree {
 public:
     static constexpr uint32_t none = ~uint32_t{0};
@@ -30,16 +31,21 @@ public:
     TriangleTree(std::span<const TriangleView> meshes, double scale, const Progress& progress);
 
     bool empty() const { return blocks_.empty(); }
+    /// Nodes that hold all that can be nearest to some places; a 0 after the first is none.
+    static constexpr size_t most_entries = 3;
+    using Entries = std::array<uint32_t, most_entries>;
+    /// For places in a ball; below 2^21.
+    Entries entries(const V3d& middle, double radius) const;
     /// A lower bound of the scaled distance from a scaled place; mostly 2^-12 of it below, at most 2^-6. Infinite where there are no triangles.
-    double distance(const V3d& place) const
+    double distance(const V3d& place, const Entries& from = {0, 0, 0}) const
     {
         uint32_t block = none;
-        return distance(place, block);
+        return distance(place, block, from);
     }
     /// block: where it is likely to be found, or none; becomes where it was found.
-    double distance(const V3d& place, uint32_t& block) const;
+    double distance(const V3d& place, uint32_t& block, const Entries& from = {0, 0, 0}) const;
     /// About the point of a block's triangles that is nearest to a place.
-    V3d nearest(uint32_t block, const V3d& place) const;
+    V3d nearest_point(uint32_t block, const V3d& place) const;
     uint64_t bytes() const { return nodes_.size() * sizeof(Node) + blocks_.size() * sizeof(TriangleBlock); }
 
 private:
@@ -49,9 +55,26 @@ private:
     static constexpr size_t deepest = 60;
 
     struct alignas(64) Node {
-        std::array<std::array<float, width>, 3> lo, hi; ///< by axis and child; turned inside out where there is none
-        std::array<uint32_t, width> child;
+        using Lanes = std::array<float, width>;
+
+        std::array<Lanes, 3> middle{};              ///< by axis
+        std::array<std::array<Lanes, 3>, 3> axes{}; ///< rows: nearly unit vectors along the box's edges
+        std::array<Lanes, 3> half{};                ///< of the edges; very negative where there is no child, so that this is never the nearest
+        std::array<uint32_t, width> child{};        ///< 0: none, which are the last
     };
+
+    /// A place as the sum of two in float.
+    struct SplitPlace {
+        V3f high, low;
+        float rounding; ///< at least what the sum is off by
+
+        explicit SplitPlace(const V3d& place);
+    };
+
+    /// Lower bounds of the squares of the distances from a place to a node's boxes.
+    static std::array<float, width> squares(const Node& node, const SplitPlace& place);
+    /// The distance to the block's triangles, or `best` where that is less.
+    static double nearer(const TriangleBlock& block, const V3d& place, double best);
 
     std::vector<Node> nodes_; ///< the first is the root
     std::vector<TriangleBlock> blocks_;

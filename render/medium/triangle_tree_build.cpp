@@ -43,7 +43,7 @@ struct Range {
     size_t count() const { return last - first; }
 };
 
-constexpr size_t bins = 16, worth_a_task = 4096, halving_depth = 24;
+constexpr size_t bins = 16, worth_a_task = 4096, halving_depth = 24, worth_turning = 64;
 
 } // namespace
 
@@ -116,16 +116,9 @@ private:
             parts.push_back(high);
         }
         TriangleTree::Node node;
-        for (size_t k = 0; k < TriangleTree::width; ++k) {
-            const Bounds b = k < parts.size() ? parts[k].bounds : Bounds{};
-            for (size_t axis = 0; axis < 3; ++axis) {
-                // A box that is clamped is no farther from a place between the bounds it is clamped to; squares stay finite.
-                const bool there = k < parts.size();
-                node.lo[axis][k] = there ? std::clamp(b.lo[static_cast<int>(axis)], -0x1p60f, 0x1p60f) : b.lo[static_cast<int>(axis)];
-                node.hi[axis][k] = there ? std::clamp(b.hi[static_cast<int>(axis)], -0x1p60f, 0x1p60f) : b.hi[static_cast<int>(axis)];
-            }
-            node.child[k] = TriangleTree::none;
-            if (k >= parts.size()) continue;
+        for (auto& half : node.half) half.fill(-0x1p60f);
+        for (size_t k = 0; k < parts.size(); ++k) {
+            set_box(node, k, parts[k]);
             const bool block = parts[k].count() <= TriangleBlock::lanes;
             node.child[k] = block ? TriangleTree::leaf | make_block(parts[k]) : static_cast<uint32_t>(nodes_.grow_by(1) - nodes_.begin());
         }
@@ -136,6 +129,74 @@ private:
         };
         if (range.count() > worth_a_task) tbb::parallel_for(size_t{0}, parts.size(), descend);
         else for (size_t k = 0; k < parts.size(); ++k) descend(k);
+    }
+
+    /// Along the mean normal and what is farthest in its plane; along the coordinates where that is no smaller.
+    void set_box(TriangleTree::Node& node, size_t k, const Range& range) const
+    {
+        V3d normal(0);
+        for (size_t i = range.first; i < range.last; ++i) {
+            const auto& c = corners_[order_[i]];
+            normal += (V3d(c[1]) - V3d(c[0])).cross(V3d(c[2]) - V3d(c[0]));
+        }
+        std::array<V3f, 3> axes{V3f(1, 0, 0), V3f(0, 1, 0), V3f(0, 0, 1)};
+        V3d lo = V3d(range.bounds.lo), hi = V3d(range.bounds.hi);
+        if (const double length = normal.length(); length > 0 && std::isfinite(length)) {
+            normal /= length;
+            const V3d middle = lo * 0.5 + hi * 0.5;
+            V3d along(0);
+            for (size_t i = range.first; i < range.last; ++i)
+                for (const V3f& corner : corners_[order_[i]]) {
+                    const V3d from = V3d(corner) - middle, flat = from - normal * normal.dot(from);
+                    if (flat.length2() > along.length2()) along = flat;
+                }
+            if (along.length() > 0) {
+                // A second time: the first may have left much of the normal.
+                along = (along - normal * normal.dot(along)).normalized();
+                const V3d across = normal.cross(along).normalized();
+                // Small boxes, which are many, are worth a search: one along the diagonal of a patch is twice as large as it need be.
+                const int angles = range.count() <= worth_turning ? 6 : 1;
+                for (int angle = 0; angle < angles; ++angle) {
+                    const double c = std::cos(pi / 2 * angle / angles), s = std::sin(pi / 2 * angle / angles);
+                    const std::array<V3f, 3> turned{V3f(normal), V3f(along * c + across * s), V3f(across * c - along * s)};
+                    V3d low, high;
+                    measure(turned, range, low, high);
+                    const auto area = [](const V3d& d) { return d.x * d.y + d.y * d.z + d.z * d.x; };
+                    if (area(high - low) >= area(hi - lo)) continue;
+                    axes = turned;
+                    lo = low;
+                    hi = high;
+                }
+            }
+        }
+        const V3d m = (lo + hi) * 0.5;
+        const V3f middle{V3d(axes[0]) * m.x + V3d(axes[1]) * m.y + V3d(axes[2]) * m.z};
+        measure(axes, range, lo, hi);
+        for (size_t axis = 0; axis < 3; ++axis) {
+            const int a = static_cast<int>(axis);
+            const double at = V3d(axes[axis]).dot(V3d(middle));
+            const auto half = static_cast<float>(std::max(hi[a] - at, at - lo[a]) * (1 + 0x1p-22) + 0x1p-49 * (std::abs(middle.x) + std::abs(middle.y) + std::abs(middle.z)));
+            node.middle[axis][k] = middle[a];
+            node.half[axis][k] = half;
+            for (size_t j = 0; j < 3; ++j) node.axes[axis][j][k] = axes[axis][static_cast<int>(j)];
+        }
+    }
+
+    /// The range's corners along axes.
+    void measure(const std::array<V3f, 3>& axes, const Range& range, V3d& lo, V3d& hi) const
+    {
+        const std::array<V3d, 3> wide{V3d(axes[0]), V3d(axes[1]), V3d(axes[2])};
+        lo = V3d(std::numeric_limits<double>::infinity());
+        hi = -lo;
+        for (size_t i = range.first; i < range.last; ++i)
+            for (const V3f& corner : corners_[order_[i]]) {
+                const V3d c(corner);
+                for (int a = 0; a < 3; ++a) {
+                    const double at = wide[static_cast<size_t>(a)].dot(c);
+                    lo[a] = std::min(lo[a], at);
+                    hi[a] = std::max(hi[a], at);
+                }
+            }
     }
 
     uint32_t make_block(const Range& range)
