@@ -96,7 +96,7 @@ RegionTracer::RegionTracer(std::shared_ptr<const EmbreeDevice> device, const Wor
     for (size_t i = 0; i < world.regions.size(); ++i) {
         if (world.regions[i].instead_of_grains) instead_of_grains_ |= RegionSet{1} << i;
     }
-    clearance_ = world.clearance ? *world.clearance : ClearanceField();
+    clearance_ = world.clearance.get();
 }
 
 RegionTracer::~RegionTracer() = default;

@@ -57,13 +57,13 @@ public:
     /// The regions that stand for grains.
     RegionSet instead_of_grains() const { return instead_of_grains_; }
     /// No surface, light or region's surface is nearer to p than this.
-    double clearance(const V3d& p) const { return clearance_.clearance(p); }
+    double clearance(const V3d& p) const { return clearance_ ? clearance_->rough_clearance(p) : 0; }
 
 private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
     RegionSet instead_of_grains_ = 0;
-    ClearanceField clearance_;
+    const ClearanceField* clearance_ = nullptr; ///< null: nothing is known
 };
 
 } // namespace scree
