@@ -20,7 +20,6 @@ std::optional<bool> Path::step_through_shell(Hit& met)
     met.place.kind = HitKind::medium;
     met.t = shell.length;
     ++result_.shells;
-    if (shells->form() == StfForm::diffusion) return diffuse_through(shell, met);
     if (sampler_.next() < std::exp(-shell.radius)) {
         met.point = o_ + shell.length * d_;
         start_ray(met.point, d_, {});
@@ -33,6 +32,7 @@ std::optional<bool> Path::step_through_shell(Hit& met)
         result_.first.albedo = shell.albedo;
         result_.first.depth = moved_ + met.t;
     }
+    if (shells->form() == StfForm::diffusion) return diffuse_through(shell, met);
     const bool is_full = shells->form() == StfForm::full;
     const bool samples_lights = world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only;
     // What reaches the shell from outside of the clear ball at all: exp(-sigma_t (clear - length)).
@@ -62,7 +62,6 @@ std::optional<bool> Path::step_through_shell(Hit& met)
 
 bool Path::diffuse_through(const FittingShell& shell, Hit& met)
 {
-    if (is_cut()) return false;
     const double u = sampler_.next(), v = sampler_.next();
     const V3d normal = sample_sphere(u, v);
     const auto left = [&](double albedo) {

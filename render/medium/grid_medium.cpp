@@ -340,6 +340,13 @@ uint64_t GridMedium::bytes() const
          + data_->regions.capacity() * sizeof(DensityRegion) + data_->least.capacity() * sizeof(Sigma);
 }
 
+double GridMedium::voxel() const
+{
+    double edge = 0;
+    for (int k = 0; k < 3; ++k) edge = std::max(edge, data_->density.to_render.vector(V3d(k == 0, k == 1, k == 2)).length());
+    return edge;
+}
+
 C3f GridMedium::sigma_t(const V3d& p) const
 {
     const Sigma sigma = data_->sigma_of(data_->density.at(p));

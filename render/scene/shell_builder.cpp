@@ -36,12 +36,11 @@ std::vector<double> g_axis(double low, double high)
     return axis;
 }
 
-double half_width(const MediumRegion& region)
+Imath::Box3d bounds_of(const MediumRegion& region)
 {
     Imath::Box3d box;
     for (const V3f& p : region.positions) box.extendBy(V3d(p));
-    const V3d extent = box.size();
-    return 0.5 * std::min({extent.x, extent.y, extent.z});
+    return box;
 }
 
 } // namespace
@@ -100,20 +99,21 @@ void add_shells(StfForm form, StfCache& cache, World& world, std::vector<PartRep
         }
         const Stopwatch watch;
         double sigma_t, albedo, g_low, g_high;
-        std::unique_ptr<GridUniformity> uniformity;
+        std::unique_ptr<MediumPyramid> pyramid;
+        const Imath::Box3d box = bounds_of(region);
         if (region.homogeneous) {
             sigma_t = region.homogeneous->sigma_t().x;
             albedo = max_component(region.homogeneous->albedo());
             g_low = g_high = region.homogeneous->phase().mean_cosine();
         } else {
-            uniformity = std::make_unique<GridUniformity>(*region.grid, tolerance);
-            const GridUniformity::Extremes extremes = uniformity->extremes();
-            sigma_t = region.grid->largest_sigma_t();
+            pyramid = std::make_unique<MediumPyramid>(*region.grid, box, tolerance, progress);
+            const MediumPyramid::Extremes& extremes = pyramid->extremes();
+            sigma_t = extremes.sigma_t_high;
             albedo = extremes.albedo_high;
             g_low = extremes.g_low;
             g_high = extremes.g_high;
         }
-        const size_t count = useful_shells(sigma_t, albedo, g_low, std::min(half_width(region), world.clearance->largest()));
+        const size_t count = useful_shells(sigma_t, albedo, g_low, std::min(0.5 * std::min({box.size().x, box.size().y, box.size().z}), world.clearance->largest()));
         if (count == 0) {
             skip("none fits: no place is a mean free path away from all faces");
             continue;
@@ -135,7 +135,7 @@ void add_shells(StfForm form, StfCache& cache, World& world, std::vector<PartRep
             region.shells = std::make_shared<MediumShells>(stfs[0], *region.homogeneous, count, form);
         } else {
             for (const double g : g_axis(g_low, g_high)) add_stf(g, nullptr);
-            region.shells = std::make_shared<MediumShells>(stfs, region.grid, std::move(uniformity), count, form);
+            region.shells = std::make_shared<MediumShells>(stfs, std::move(pyramid), count, form);
         }
         parts.push_back({part, true, fmt::format("{} of up to {:.4g} mean free paths for {} values of g, {} made now", count, Stf::radius(count - 1), stfs.size(), computed),
                          watch.seconds(), region.shells->bytes()});

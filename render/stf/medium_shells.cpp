@@ -31,16 +31,16 @@ MediumShells::MediumShells(std::shared_ptr<const Stf> stf, const HomogeneousMedi
     bytes_ += stfs_[0]->bytes();
 }
 
-MediumShells::MediumShells(std::vector<std::shared_ptr<const Stf>> stfs, std::shared_ptr<const GridMedium> medium, std::unique_ptr<const GridUniformity> uniformity, size_t count, StfForm form)
-    : form_(form), stfs_(std::move(stfs)), grid_(std::move(medium)), uniformity_(std::move(uniformity))
+MediumShells::MediumShells(std::vector<std::shared_ptr<const Stf>> stfs, std::unique_ptr<const MediumPyramid> medium, size_t count, StfForm form)
+    : form_(form), stfs_(std::move(stfs)), grid_(std::move(medium))
 {
-    const GridUniformity::Extremes extremes = uniformity_->extremes();
-    albedos_ = sampled_albedos(std::clamp(extremes.albedo_low, 0.0f, 1.0f), std::clamp(extremes.albedo_high, 0.0f, 1.0f));
+    const MediumPyramid::Extremes& extremes = grid_->extremes();
+    albedos_ = sampled_albedos(static_cast<float>(std::clamp(extremes.albedo_low, 0.0, 1.0)), static_cast<float>(std::clamp(extremes.albedo_high, 0.0, 1.0)));
     for (const auto& stf : stfs_) {
         for (const float albedo : albedos_) add_samplers(*stf, albedo, count);
         bytes_ += stf->bytes();
     }
-    bytes_ += uniformity_->bytes();
+    bytes_ += grid_->bytes();
 }
 
 void MediumShells::add_samplers(const Stf& stf, double albedo, size_t count)
@@ -83,21 +83,25 @@ bool MediumShells::fit(const V3d& place, double clear, double u, FittingShell& f
 
 bool MediumShells::fit_in_grid(const V3d& place, double clear, double u, FittingShell& fitting) const
 {
-    if (!(clear > 0)) return false;
-    const double sigma_t = grid_->sigma_t(place).x;
+    const double most = grid_->extremes().sigma_t_high * clear;
     const bool diffuses = form_ == StfForm::diffusion;
     const size_t count = diffuses ? 1 << 10 : samplers_[0].size();
-    int number = Stf::largest(clear * sigma_t, count);
+    int number = Stf::largest(most, count);
     if (number < 0) return false;
-    fitting.sigma_t = sigma_t;
-    fitting.albedo = grid_->albedo(place);
-    const double g = grid_->g(place);
-    double radius = std::min(clear * sigma_t, Stf::radius(count - 1) * 2);
-    while (!uniformity_->holds(place, radius / sigma_t, sigma_t, fitting.albedo, g)) {
-        number -= Stf::steps_per_octave; // half as large
+    // From the largest ball on, each half as large as the one before.
+    double length = clear;
+    if (number + 1 == static_cast<int>(count)) length = std::min(clear, 2 * Stf::radius(count - 1) / grid_->extremes().sigma_t_high);
+    MediumMean mean;
+    for (;; length /= 2) {
+        if (!(length * grid_->extremes().sigma_t_high >= Stf::radius(0))) return false;
+        if (!grid_->is_same(place, length, mean)) continue;
+        number = Stf::largest(length * mean.sigma_t, count);
         if (number < 0) return false;
-        radius = Stf::radius(static_cast<size_t>(number));
+        break;
     }
+    const double sigma_t = mean.sigma_t, g = mean.g, radius = length * sigma_t;
+    fitting.sigma_t = sigma_t;
+    fitting.albedo = mean.albedo;
     fitting.phase = PhaseFunction(g);
     if (diffuses) {
         fitting.radius = radius;
@@ -109,13 +113,13 @@ bool MediumShells::fit_in_grid(const V3d& place, double clear, double u, Fitting
             if (u < part) ++of;
             u = u < part ? u / part : (u - part) / (1 - part); // to be used again
         }
-        const float most = max_component(fitting.albedo);
-        size_t albedo = static_cast<size_t>(std::ranges::lower_bound(albedos_, most) - albedos_.begin());
+        const float brightest = max_component(fitting.albedo);
+        size_t albedo = static_cast<size_t>(std::ranges::lower_bound(albedos_, brightest) - albedos_.begin());
         albedo = std::min(albedo, albedos_.size() - 1);
         fitting.sampled_albedo = albedos_[albedo];
         choose(samplers_[of * albedos_.size() + albedo], static_cast<size_t>(number), radius, u, fitting);
     }
-    fitting.length = std::min(clear, fitting.radius / sigma_t);
+    fitting.length = std::min(length, fitting.radius / sigma_t);
     return true;
 }
 

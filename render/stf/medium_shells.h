@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/medium/grid_uniformity.h"
 #include "render/medium/homogeneous_medium.h"
+#include "render/medium/medium_pyramid.h"
 #include "render/stf/shell_sampler.h"
 #include "render/stf/stf_form.h"
 
@@ -36,7 +36,7 @@ public:
     /// stf: of the medium's phase function (or, by form, of one that stands for it). count: of its shells to use.
     MediumShells(std::shared_ptr<const Stf> stf, const HomogeneousMedium& medium, size_t count, StfForm form);
     /// stfs: of growing g, from the least to the largest in the medium; a shell where g is between two is of either, by chance.
-    MediumShells(std::vector<std::shared_ptr<const Stf>> stfs, std::shared_ptr<const GridMedium> medium, std::unique_ptr<const GridUniformity> uniformity, size_t count, StfForm form);
+    MediumShells(std::vector<std::shared_ptr<const Stf>> stfs, std::unique_ptr<const MediumPyramid> medium, size_t count, StfForm form);
 
     /// The largest shell around a place, where nothing but the medium is within `clear`. False: none fits. u: in (0, 1), where the choice is left to chance.
     bool fit(const V3d& place, double clear, double u, FittingShell& fitting) const;
@@ -61,8 +61,7 @@ private:
     std::vector<float> albedos_;     ///< that they are for, growing
     FittingShell everywhere_;        ///< of a homogeneous medium
     std::shared_ptr<const PhaseTable> phase_table_;
-    std::shared_ptr<const GridMedium> grid_;
-    std::unique_ptr<const GridUniformity> uniformity_;
+    std::unique_ptr<const MediumPyramid> grid_;
 };
 
 } // namespace scree

@@ -29,24 +29,29 @@ std::vector<ShellWalk> walk_all(const PhaseFunction& phase, size_t shell, std::s
     return walks;
 }
 
-/// Keeps `count` of the records, evenly by their mass among those of a like number of events and a like place; what leaves after few events is
-/// kept more often than by its mass (half of all evenly over the logarithm of the quantile), as it counts for more where light is absorbed.
-template <class Record, class Place>
-void thin(const std::vector<Record>& records, const std::vector<double>& mass, uint32_t count, const Place& place, std::vector<Record>& kept, std::vector<float>& weights)
+/// Sorts each run of `length`; equal keys by place, so that the order is one of the records alone.
+template <class Key>
+void sort_runs(std::vector<uint32_t>& order, size_t length, const Key& key)
+{
+    for (size_t i = 0; i < order.size(); i += length) {
+        const auto first = order.begin() + static_cast<std::ptrdiff_t>(i), last = order.begin() + static_cast<std::ptrdiff_t>(std::min(i + length, order.size()));
+        std::sort(first, last, [&](uint32_t a, uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+    }
+}
+
+/// Keeps `count` of the records, evenly by their mass among those of a like number of events, a like place and a like direction; what leaves after few
+/// events is kept more often than by its mass (a quarter of all evenly over the logarithm of the quantile), as it counts for more where light is absorbed.
+template <class Record, class Place, class Direction>
+void thin(const std::vector<Record>& records, const std::vector<double>& mass, uint32_t count, const Place& place, const Direction& direction, std::vector<Record>& kept, std::vector<float>& weights)
 {
     std::vector<uint32_t> order(records.size());
     std::iota(order.begin(), order.end(), 0u);
-    std::ranges::sort(order, [&](uint32_t a, uint32_t b) {
-        if (records[a].events != records[b].events) return records[a].events < records[b].events;
-        return place(records[a]) != place(records[b]) ? place(records[a]) < place(records[b]) : a < b;
-    });
-    constexpr size_t alike = 128;
-    for (size_t i = 0; i < order.size(); i += alike) {
-        const auto first = order.begin() + static_cast<std::ptrdiff_t>(i), last = order.begin() + static_cast<std::ptrdiff_t>(std::min(i + alike, order.size()));
-        std::sort(first, last, [&](uint32_t a, uint32_t b) { return place(records[a]) != place(records[b]) ? place(records[a]) < place(records[b]) : a < b; });
-    }
+    constexpr size_t like_events = 1024, like_places = 32;
+    sort_runs(order, order.size(), [&](uint32_t i) { return records[i].events; });
+    sort_runs(order, like_events, [&](uint32_t i) { return place(records[i]); });
+    sort_runs(order, like_places, [&](uint32_t i) { return direction(records[i]); });
     const double total = std::accumulate(mass.begin(), mass.end(), 0.0), least = 1.0 / static_cast<double>(records.size()), scale = 1 - std::log(least);
-    const auto density = [&](double quantile) { return 0.5 + 0.5 / (scale * std::max(quantile, least)); };
+    const auto density = [&](double quantile) { return 0.75 + 0.25 / (scale * std::max(quantile, least)); };
     std::vector<double> share(order.size());
     double before = 0, all = 0;
     for (size_t i = 0; i < order.size(); ++i) {
@@ -84,8 +89,8 @@ StfShell make_shell(const PhaseFunction& phase, size_t number, std::span<const S
         shell.event_sum += walk.event_sum;
     }
     shell.event_sum /= static_cast<double>(walks.size());
-    thin(exits, std::vector<double>(walks.size(), 1.0), options.records, [](const ShellExit& e) { return e.cos_t; }, shell.exits, shell.exit_weights);
-    thin(events, mass, options.records, [](const ShellEvent& e) { return e.along; }, shell.events, shell.event_weights);
+    thin(exits, std::vector<double>(walks.size(), 1.0), options.records, [](const ShellExit& e) { return e.cos_t; }, [](const ShellExit& e) { return e.away; }, shell.exits, shell.exit_weights);
+    thin(events, mass, options.records, [](const ShellEvent& e) { return e.along; }, [](const ShellEvent& e) { return e.direction.z; }, shell.events, shell.event_weights);
     return shell;
 }
 

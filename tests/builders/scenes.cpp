@@ -110,14 +110,18 @@ void TestScene::build()
         }
     }
     world_.lights = LightSet(lights_, 1.8);
-    world_.clearance = make_clearance(world_, Progress());
-    if (shells_) {
-        static StfCache cache{{}}; // of all tests of a program
-        std::vector<PartReport> parts;
-        std::vector<std::string> remarks;
-        add_shells(*shells_, cache, world_, parts, remarks, Progress());
-    }
+    prepare_media(world_, shells_);
     tracer_ = std::make_unique<Tracer>(device_, world_);
+}
+
+void prepare_media(World& world, std::optional<StfForm> shells)
+{
+    world.clearance = make_clearance(world, Progress());
+    if (!shells) return;
+    static StfCache cache{{}}; // of all tests of a program
+    std::vector<PartReport> parts;
+    std::vector<std::string> remarks;
+    add_shells(*shells, cache, world, parts, remarks, Progress());
 }
 
 Material lambert(float reflectance)

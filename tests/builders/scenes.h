@@ -72,6 +72,9 @@ private:
     std::unique_ptr<Tracer> tracer_;
 };
 
+/// Finds how far places in the media of a world are from everything, and gives them shells; before its tracer is made.
+void prepare_media(World& world, std::optional<StfForm> shells);
+
 Material lambert(float reflectance);
 Material dielectric(double ior, double alpha = 0);
 

@@ -79,11 +79,12 @@ struct Cored {
     std::unique_ptr<Tracer> tracer;
     std::vector<PartReport> parts;
 
-    Cored(const TestScene& scene, double depth, EquivalentForm form = EquivalentForm::formula) : world(scene.world())
+    Cored(const TestScene& scene, double depth, EquivalentForm form = EquivalentForm::formula, std::optional<StfForm> shells = {}) : world(scene.world())
     {
         std::vector<std::string> remarks;
         const auto medium = make_grain_medium(world, form, {});
         replace_grains(*medium, {depth < 0, depth, 0}, world, parts, remarks, {});
+        prepare_media(world, shells);
         tracer = std::make_unique<Tracer>(std::make_shared<EmbreeDevice>(), world);
     }
 };
@@ -119,12 +120,18 @@ TEST(GrainMediumFurnace, IsWhite)
     sampled.add_white_environment();
     constant.build();
     sampled.build();
-    const Cored dark(constant, 2), bright(sampled, 2);
+    const Cored dark(constant, 2, EquivalentForm::formula, StfForm::full), bright(sampled, 2, EquivalentForm::formula, StfForm::full);
     ASSERT_EQ(dark.world.regions.size(), 1u);
     EXPECT_NE(dark.world.regions[0].grid, nullptr); // of a list it varies
     for (const uint32_t explicit_grains : {0u, all_grains}) {
         PathOptions options;
         options.explicit_grains = explicit_grains;
+        uint64_t shells = 0;
+        for (uint32_t p = 0; p < 200; ++p) {
+            Sampler sampler(19, p, 0, 0);
+            shells += trace_path(dark.world, *dark.tracer, V3d(0.01), V3d(0, 0, 1), sampler, options).shells;
+        }
+        EXPECT_GT(shells, 200u); // paths go through them
         const Estimate plain = shine_in(dark.world, *dark.tracer, 3000, options, 17);
         EXPECT_NEAR(plain.mean(), 1, 1e-5) << explicit_grains;
         for (const DirectLight strategy : {DirectLight::both, DirectLight::lights_only, DirectLight::scattering_only}) {

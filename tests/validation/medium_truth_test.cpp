@@ -2,65 +2,17 @@
 // against themselves where the answer does not depend on how light is found or on the unit of length.
 
 #include "render/integrators/path_tracer.h"
-#include "render/medium/grid_medium_build.h"
-#include "render/warp.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
+#include "tests/builders/slabs.h"
 #include "tests/builders/statistics.h"
 
 #include <gtest/gtest.h>
-#include <tbb/parallel_for.h>
 
 namespace scree {
 namespace {
 
 constexpr double systematic = 1e-3; // what the slabs may be off by
-
-/// A slab between z = 0 and z = -depth, far wider than light goes.
-std::unique_ptr<TestScene> slab(double depth, const V3d& sigma_t, const C3f& albedo, double g)
-{
-    auto scene = std::make_unique<TestScene>();
-    const double wide = 3e3 * depth;
-    scene->add_medium(box_mesh({-wide, -wide, -depth}, {wide, wide, 0}), sigma_t, albedo, g);
-    scene->add_constant_light(1);
-    scene->build();
-    return scene;
-}
-
-struct ReflectedAndPassed {
-    Estimate up[3], down[3]; ///< by channel
-};
-
-/// What rays bring that come down from `distance` to (0, 0, 0), by the side they leave to. cosine: of incidence; below 0: as of diffuse light.
-ReflectedAndPassed shine(const World& world, const Tracer& tracer, double distance, uint32_t paths, double cosine, uint64_t seed)
-{
-    struct Value {
-        C3f radiance;
-        bool up;
-    };
-    std::vector<Value> values(paths);
-    tbb::parallel_for(uint32_t{0}, paths, [&](uint32_t p) {
-        flush_subnormals();
-        Sampler sampler(seed, p, 0, 0);
-        const double u1 = sampler.next(), u2 = sampler.next();
-        V3d d = cosine < 0 ? -sample_cosine_hemisphere(u1, u2) : V3d(std::sqrt(1 - cosine * cosine), 0, -cosine);
-        const PathResult result = trace_path(world, tracer, -distance * d, d, sampler);
-        values[p] = {result.radiance, result.last_direction.z > 0};
-    });
-    ReflectedAndPassed sum;
-    for (const Value& value : values) {
-        for (int c = 0; c < 3; ++c) {
-            sum.up[c].add(value.up ? value.radiance[c] : 0);
-            sum.down[c].add(value.up ? 0 : value.radiance[c]);
-        }
-    }
-    return sum;
-}
-
-ReflectedAndPassed shine(const TestScene& scene, uint32_t paths, double cosine, uint64_t seed)
-{
-    return shine(scene.world(), scene.tracer(), 1, paths, cosine, seed);
-}
 
 void expect_truth(const Estimate& estimate, double truth, const std::string& what)
 {
@@ -99,35 +51,6 @@ TEST(Slab, DoesNotKnowTheUnitOfLength)
     EXPECT_EQ(one.down[0].mean(), large.down[0].mean());
     for (const double unit : {1e-6, 1e6}) expect_truth(shine(*slab(2 * unit, V3d(1 / unit), C3f(0.9f), 0.75), paths, 1, 8).down[0], 0.66096, "slab in another unit: T");
 }
-
-/// The slab as a grid of equal voxels in its box; unit: of length.
-struct GridSlab {
-    World world;
-    std::unique_ptr<Tracer> tracer;
-
-    GridSlab(double depth, double sigma_t, float albedo, double g, double unit)
-    {
-        openvdb::initialize();
-        const int across = 64, down = 8; // voxels; wide ones
-        const double wide = 300 * depth;
-        const auto grid = openvdb::FloatGrid::create(0);
-        grid->fill(openvdb::CoordBBox({-across, -across, -down}, {across, across, down}), static_cast<float>(sigma_t / unit));
-        MediumGrids grids{grid, nullptr, nullptr, {}, "slab"};
-        grids.to_scene[0][0] = grids.to_scene[1][1] = unit * wide / across;
-        grids.to_scene[2][2] = unit * depth / down;
-        // Cut out of its middle, where interpolation does not meet the grid's faces.
-        const TriangleMesh mesh = box_mesh(unit * V3d(-0.5 * wide, -0.5 * wide, -0.5 * depth), unit * V3d(0.5 * wide, 0.5 * wide, 0.5 * depth));
-        MediumRegion region{"slab", {}, mesh.triangles, nullptr, nullptr, false};
-        GridMediumOptions options;
-        options.albedo = C3f(albedo);
-        options.g = g;
-        region.grid = std::make_shared<GridMedium>(make_grid_medium(grids, options, {}, {}));
-        for (const V3d& p : mesh.positions) region.positions.emplace_back(p);
-        world.regions.push_back(std::move(region));
-        world.lights = LightSet({Light{}}, 1);
-        tracer = std::make_unique<Tracer>(std::make_shared<EmbreeDevice>(), world);
-    }
-};
 
 TEST(Slab, IsTheSameAsAGrid)
 {
@@ -196,23 +119,6 @@ TEST(Slab, EndsWhateverItsDensity)
     }
 }
 
-/// Mean radiance of rays from all around towards the middle of things.
-Estimate from_all_around(const TestScene& scene, uint32_t count, double distance, const PathOptions& options, uint64_t seed)
-{
-    std::vector<double> values(count);
-    tbb::parallel_for(uint32_t{0}, count, [&](uint32_t p) {
-        flush_subnormals();
-        Sampler sampler(seed, p, 0, 0);
-        const double u1 = sampler.next(), u2 = sampler.next();
-        const V3d o = distance * sample_sphere(u1, u2);
-        const V3d target(sampler.next() - 0.5, sampler.next() - 0.5, sampler.next() - 0.5);
-        values[p] = trace_path(scene.world(), scene.tracer(), o, (target - o).normalized(), sampler, options).radiance.x;
-    });
-    Estimate radiance;
-    for (const double value : values) radiance.add(value);
-    return radiance;
-}
-
 TEST(MediumFurnace, IsWhiteAfterAHundredThousandScatterings)
 {
     TestScene scene; // optical radius 500, seen from its middle: about 500^2 (1 - g) / 2 scatterings
@@ -242,11 +148,11 @@ void expect_white(const Add& add, const std::string& what)
     sampled.add_white_environment();
     constant.build();
     sampled.build();
-    EXPECT_NEAR(from_all_around(constant, 20000, 4, {}, 5).mean(), 1, 1e-6) << what;
+    EXPECT_NEAR(from_all_around(constant.world(), constant.tracer(), 20000, 4, {}, 5).mean(), 1, 1e-6) << what;
     for (const DirectLight strategy : {DirectLight::both, DirectLight::lights_only, DirectLight::scattering_only}) {
         PathOptions options;
         options.direct_light = strategy;
-        const Estimate e = from_all_around(sampled, 100000, 4, options, 6);
+        const Estimate e = from_all_around(sampled.world(), sampled.tracer(), 100000, 4, options, 6);
         EXPECT_LT(std::abs(e.z(1)), 4) << what << ", strategy " << static_cast<int>(strategy) << ": " << e.mean() << " +- " << e.standard_error();
         std::printf("%s, strategy %d: %.5f +- %.5f\n", what.c_str(), static_cast<int>(strategy), e.mean(), e.standard_error());
     }
@@ -302,7 +208,7 @@ TEST(MediumLight, StrategiesAgree)
     for (const DirectLight strategy : {DirectLight::both, DirectLight::lights_only, DirectLight::scattering_only}) {
         PathOptions options;
         options.direct_light = strategy;
-        found.push_back(from_all_around(scene, 200000, 4, options, 3 + found.size()));
+        found.push_back(from_all_around(scene.world(), scene.tracer(), 200000, 4, options, 3 + found.size()));
         std::printf("strategy %d: %.5f +- %.5f\n", static_cast<int>(strategy), found.back().mean(), found.back().standard_error());
     }
     for (size_t i = 1; i < 3; ++i) {

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "ingest/support/progress.h"
+#include "render/medium/grid_medium.h"
+
+#include <array>
+#include <vector>
+
+namespace scree {
+
+/// What a medium is in the mean over a part of it.
+struct MediumMean {
+    double sigma_t = 0;
+    C3f albedo{1}; ///< by what it scatters
+    double g = 0;  ///< likewise
+};
+
+/// Means of an achromatic medium of grids over cubes of growing size, and how much they differ within: where it counts as the same for light that
+/// goes a long way. What varies over less than about a ball's radius averages out in it, and is not asked about.
+class MediumPyramid {
+public:
+    /// box: where places will be asked about; render coordinates. tolerance: of sigma_t, 1 - albedo and 1 - g, as parts of their means. Throws Cancelled.
+    MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, double tolerance, const Progress& progress);
+
+    /// Whether the medium is the same in a ball, within the tolerance; mean: over the ball, about.
+    bool is_same(const V3d& centre, double radius, MediumMean& mean) const;
+
+    /// Between which its means over small cubes lie; of the albedo that of the brightest channel.
+    struct Extremes {
+        double sigma_t_high = 0, albedo_low = 1, albedo_high = 0, g_low = 1, g_high = -1;
+    };
+    const Extremes& extremes() const { return extremes_; }
+    uint64_t bytes() const;
+
+private:
+    /// Sums over a cube, and the range of the means of the eight cubes within.
+    struct Cell {
+        float sigma_t = 0, scattered[3] = {0, 0, 0}, forward = 0; ///< extinction; times albedo; brightest channel's times g
+        float sigma_low = 0, sigma_high = 0, loss_low = 0, loss_high = 0, back_low = 0, back_high = 0; ///< of sigma_t, 1 - albedo, 1 - g
+    };
+    struct Level {
+        std::array<int64_t, 3> size{};
+        std::vector<Cell> cells;
+        const Cell& at(int64_t x, int64_t y, int64_t z) const { return cells[static_cast<size_t>((x * size[1] + y) * size[2] + z)]; }
+    };
+    static void set_own_range(Cell& cell);
+
+    V3d origin_{0};
+    double width_ = 0; ///< of a cube of the first level
+    double tolerance_;
+    Extremes extremes_;
+    std::vector<Level> levels_;
+};
+
+} // namespace scree
