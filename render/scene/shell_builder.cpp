@@ -84,7 +84,7 @@ std::shared_ptr<const ClearanceField> make_clearance(const World& world, const P
     return std::make_shared<ClearanceField>(meshes, box, progress);
 }
 
-void add_shells(StfForm form, StfCache& cache, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
+void add_shells(StfForm form, double least, StfCache& cache, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
 {
     for (MediumRegion& region : world.regions) {
         const std::string part = "shells of '" + region.name + "'";
@@ -114,8 +114,8 @@ void add_shells(StfForm form, StfCache& cache, World& world, std::vector<PartRep
             g_high = extremes.g_high;
         }
         const size_t count = useful_shells(sigma_t, albedo, g_low, std::min(0.5 * std::min({box.size().x, box.size().y, box.size().z}), world.clearance->largest()));
-        if (count == 0) {
-            skip("none fits: no place is a mean free path away from all faces");
+        if (count == 0 || Stf::radius(count - 1) < least) {
+            skip(count == 0 ? "none fits: no place is a mean free path away from all faces" : fmt::format("the largest has {:.3g} mean free paths, of use are {:g} and more", Stf::radius(count - 1), least));
             continue;
         }
         std::vector<std::shared_ptr<const Stf>> stfs;

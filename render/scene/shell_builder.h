@@ -20,7 +20,7 @@ std::shared_ptr<const ClearanceField> make_clearance(const World& world, const P
 
 /// Gives the media of a world the shells that light may go through in them, after make_clearance(): of each no more than fit and pay.
 ///
-/// Reports what was built, or why nothing was. Throws Cancelled.
-void add_shells(StfForm form, StfCache& cache, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress);
+/// least: radius of the largest shell, in mean free paths, below which a medium gets none. Reports what was built, or why nothing was. Throws Cancelled.
+void add_shells(StfForm form, double least, StfCache& cache, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress);
 
 } // namespace scree

@@ -29,6 +29,9 @@ constexpr uint64_t few_grains = 2000;
 /// Light that meets fewer than these is followed from grain to grain sooner than through a medium.
 constexpr double few_encounters = 4;
 
+/// Where the largest shell has fewer mean free paths, few paths come to where it fits, and what shells are made of costs more than they save.
+constexpr double worthwhile_shell = 8;
+
 /// A medium pays where there is more of it than of the grains above.
 constexpr double least_core = 1.5; ///< half the least extent of the grains, in depths
 
@@ -126,6 +129,7 @@ TransportPlan plan_transport(const IntegratorDescription& integrator, const Came
         plan.has_grain_medium = half_thickness(facts) > plan.depth_radii * facts.mean_radius;
     }
     plan.has_shells = integrator.shells.value_or(integrator.kind == IntegratorKind::stf || (integrator.kind == IntegratorKind::automatic && integrator.accuracy != Accuracy::reference));
+    if (integrator.kind == IntegratorKind::automatic && !integrator.shells) plan.least_shell = worthwhile_shell;
     if (facts.count == 0) plan.why = "the scene has no grains";
     return plan;
 }

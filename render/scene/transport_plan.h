@@ -38,6 +38,7 @@ struct TransportPlan {
     EquivalentForm medium_form = EquivalentForm::decay;
     bool has_shells = false;               ///< light goes through shells in media
     StfForm stf_form = StfForm::full;
+    double least_shell = 1;                ///< mean free paths: of the largest in a medium, else it gets none
     std::string why;                       ///< why grains are taken in this way
 
     bool has_proxies() const { return explicit_grains != all_grains && !replaces_all; }

@@ -371,7 +371,7 @@ void WorldBuilder::Impl::make_shells(World& world, const Progress& progress, Pre
     if (world.regions.empty()) return skip("there is no medium");
     if (!plan.has_shells) return skip("light is followed from scattering to scattering in media");
     if (!shells) shells = std::make_unique<StfCache>(cache_folder(), stf_options(plan.accuracy));
-    add_shells(plan.stf_form, *shells, world, parts, frame_warnings, progress);
+    add_shells(plan.stf_form, plan.least_shell, *shells, world, parts, frame_warnings, progress);
 }
 
 LightSet WorldBuilder::Impl::make_lights(const World& world)
