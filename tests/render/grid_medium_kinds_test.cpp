@@ -205,7 +205,7 @@ TEST(GridMediumKinds, AlbedoAndAsymmetryGrids)
     Sampler sampler(1, 0, 0, 0);
     SpectralState state;
     const MediumEvent event = medium.event({1, 0.55, 1}, {0, 0, 1}, 0, infinity, state, sampler);
-    if (event.scattered) { EXPECT_NEAR(event.g, 0.04 * 5.5 - 0.5, 1e-6); }
+    if (event.scattered) { EXPECT_NEAR(event.phase.mean_cosine(), 0.04 * 5.5 - 0.5, 1e-6); }
 }
 
 /// A rotated, sheared, mirrored and shifted grid: places are where its transform puts them.
