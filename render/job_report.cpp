@@ -28,7 +28,7 @@ uint64_t peak_memory()
 std::string part_text(const PartReport& part)
 {
     std::string text = fmt::format("  {:<8} {:<26} {}", part.built ? "built" : "skipped", part.part, part.reason);
-    if (part.built && (part.bytes > 0 || part.seconds > 0)) text += fmt::format(" ({}, {:.3f} s)", bytes_text(part.bytes), part.seconds);
+    if (part.built && (part.bytes > 0 || part.seconds > 0)) text += part.bytes > 0 ? fmt::format(" ({}, {:.3f} s)", bytes_text(part.bytes), part.seconds) : fmt::format(" ({:.3f} s)", part.seconds);
     return text + "\n";
 }
 

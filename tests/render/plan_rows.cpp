@@ -144,7 +144,7 @@ std::vector<PlanRow> plan_rows()
     traced("again", "ten", ppt, "gsdf 'a'", true, "from the cache, ");
     planned("again", "ten", with(ppt, {"--seed", "2"}), "gsdf 'a'", true, "from the cache, ");
     traced("grains", "ten", {}, "grains", true, "10 of 10 spheres read");
-    planned("fill", "fill", {}, "domain", true, "ball.obj: 320 triangles, checked");
+    planned("fill", "fill", {}, "domain", true, "320 triangles, checked");
     planned("fill", "fill", {}, "tile", true, "tile.vdb: 64 spheres, 1 variants");
     planned("fill", "fill", {}, "fill", true, "spheres of mean radius 0.07");
 
@@ -174,8 +174,8 @@ std::vector<PlanRow> plan_rows()
     traced("all", "bed", with(vpt, formula), walk, false, "the form of the medium needs none");
     traced("fill", "fill", with(vpt, formula), medium, true, "the same everywhere");
     traced("pattern", "pattern", with(vpt, formula), medium, true, "as the grains vary");
-    traced("apart", "apart", with(ept, {"--grain-depth", "3"}), medium, false, "no place is 3 mean radii deep");
-    traced("apart", "apart", with(ept, {"--grain-depth", "3"}), walk, false, "no medium follows from it");
+    traced("apart", "apart", with(ept, {"--accuracy", "draft", "--grain-depth", "3"}), medium, false, "no place is 3 mean radii deep");
+    traced("apart", "apart", with(ept, {"--accuracy", "draft", "--grain-depth", "3"}), walk, false, "no medium follows from it");
     traced("apart", "apart", vpt, medium, false, "no grain is deeper than a radius");
     traced("apart", "apart", stf, "shells", false, "there is no medium");
 

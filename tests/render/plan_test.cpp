@@ -151,9 +151,9 @@ TEST_F(PlanLines, EveryLineIsPrintedForAScene)
 
 TEST_F(PlanLines, DoNotContradictEachOther)
 {
-    for (const Arguments& how : {draft, ept, ppt, with(vpt, formula), with(with(stf, diffusion), formula), with(with(ept, {"--grain-depth", "3"}), formula), with(ppt, {"--explicit-grains", "1"})}) {
+    for (const Arguments& how : {draft, ept, ppt, with(vpt, formula), with(with(stf, diffusion), formula), with(with(ept, {"--accuracy", "draft", "--grain-depth", "3"}), formula), with(ppt, {"--explicit-grains", "1"})}) {
         for (const auto& [name, keys] : scenes_) {
-            if (name.starts_with("many") || name == "thin") continue; // take longer, and have nothing new
+            if (name.starts_with("many") || name == "thin" || name == "pattern" || name == "library") continue; // take longer, and have nothing new
             SCOPED_TRACE(fmt::format("{} {}", name, fmt::join(how, " ")));
             const std::vector<Line>&planned = run(name, with(how, plan_only)), &lines = run(name, how);
             const auto is_built = [&](const std::string& part) {
