@@ -5,6 +5,8 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
+
 namespace scree {
 
 namespace {
@@ -26,7 +28,7 @@ uint64_t peak_memory()
 std::string part_text(const PartReport& part)
 {
     std::string text = fmt::format("  {:<8} {:<26} {}", part.built ? "built" : "skipped", part.part, part.reason);
-    if (part.built && part.bytes > 0) text += fmt::format(" ({}, {:.3f} s)", bytes_text(part.bytes), part.seconds);
+    if (part.built && (part.bytes > 0 || part.seconds > 0)) text += part.bytes > 0 ? fmt::format(" ({}, {:.3f} s)", bytes_text(part.bytes), part.seconds) : fmt::format(" ({:.3f} s)", part.seconds);
     return text + "\n";
 }
 
@@ -46,29 +48,38 @@ const char* kind_name(HitKind kind)
 
 } // namespace
 
+std::vector<PartReport> all_parts(const WorldBuilder& builder, const World& world)
+{
+    const TransportPlan& plan = builder.plan();
+    const FilmDescription& film = builder.scene().film;
+    const std::string why_proxies = fmt::format("after {} grains of a path", plan.explicit_grains);
+    const std::string why_none = !plan.has_grains || plan.replaces_all ? plan.why : "every grain is traced as it is";
+    std::vector<PartReport> parts{{"explicit grains", plan.has_exemplars(), plan.why}, {"proxies", plan.has_proxies(), plan.has_proxies() ? why_proxies : why_none}};
+    parts.insert(parts.end(), builder.parts().begin(), builder.parts().end());
+
+    // As the tracer has it; where a medium is to stand for all grains they may be there still.
+    const bool enters = plan.needs_gsdfs() || std::ranges::any_of(world.types, [](const GrainType& type) { return type.material.transmits(); });
+    const bool cut = enters && world.has_grains() && !plan.replaces_all && !world.surfaces.empty();
+    parts.push_back({"surfaces inside grains", cut, cut ? "a second structure of the surfaces, for grains they cut through" : "no path can be inside a grain and meet a surface"});
+    const bool sampled = world.lights.any_sampled();
+    const char* found = world.lights.lights().empty() ? "the scene has no light" : "only constant light, or none, which every path finds";
+    parts.push_back({"light sampling", sampled, sampled ? "next-event estimation with multiple importance sampling" : found});
+    for (size_t i = 0; i < aov_names.size(); ++i) {
+        const bool wanted = std::ranges::find(film.aov, static_cast<Aov>(i)) != film.aov.end();
+        parts.push_back({"channels " + aov_names[i], wanted, wanted ? "asked for" : "not asked for"});
+    }
+    return parts;
+}
+
 std::string plan_text(const WorldBuilder& builder, const World& world, size_t frame)
 {
     const SceneDescription& scene = builder.scene();
     std::string text = fmt::format("{}: {}x{}, integrator {}", scene.file.string(), scene.film.width, scene.film.height, integrator_names[static_cast<size_t>(scene.integrator.kind)]);
     if (scene.integrator.kind == IntegratorKind::automatic) text += fmt::format(", accuracy {}", accuracy_names[static_cast<size_t>(scene.integrator.accuracy)]);
     text += builder.frame_name(frame).empty() ? "\n" : fmt::format(", frame {} of {}: {}\n", frame, builder.frame_count(), builder.frame_name(frame));
-    const TransportPlan& plan = builder.plan();
-    text += part_text({"explicit grains", plan.has_exemplars(), plan.why});
-    text += part_text({"proxies", plan.has_proxies(), plan.has_proxies() ? fmt::format("after {} grains of a path", plan.explicit_grains) : plan.replaces_all ? "a medium stands for all grains" : "every grain is traced as it is"});
-    for (const PartReport& part : builder.parts()) text += part_text(part);
-
-    bool glass = false;
-    for (const GrainType& type : world.types) glass |= type.material.transmits();
-    const bool cut = glass && world.has_grains() && !world.surfaces.empty();
-    text += part_text({"surfaces inside grains", cut, cut ? "a second structure of the surfaces, for grains they cut through"
-                                                         : "no path can be inside a grain and meet a surface"});
-    text += part_text({"light sampling", world.lights.any_sampled(), world.lights.any_sampled()
-                           ? "next-event estimation with multiple importance sampling" : "only constant light, which every path finds"});
-    for (size_t i = 0; i < aov_names.size(); ++i) {
-        const bool wanted = std::find(scene.film.aov.begin(), scene.film.aov.end(), static_cast<Aov>(i)) != scene.film.aov.end();
-        text += part_text({"channels " + aov_names[i], wanted, wanted ? "asked for" : "not asked for"});
-    }
-    const bool none_traced = plan.replaces_all;
+    for (const PartReport& part : all_parts(builder, world)) text += part_text(part);
+    text += part_text({"acceleration structure", true, "to be built by Embree"});
+    const bool none_traced = builder.plan().replaces_all;
     text += fmt::format("  would trace {}{}{} grains of {} types among {} surfaces and {} media under {} lights\n", none_traced ? "a medium in place of " : "", world.fill ? "about " : "",
                         world.grain_count(), world.types.size(), world.surfaces.size(), world.regions.size(), world.lights.lights().size());
     return text;

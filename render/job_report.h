@@ -18,6 +18,9 @@ struct FrameReport {
     RenderStatistics statistics{};
 };
 
+/// All that was built for the builder's last world, would be, or is skipped, and why, but for the acceleration structure.
+std::vector<PartReport> all_parts(const WorldBuilder& builder, const World& world);
+
 /// What would be built for this world and what is skipped, and why; a line a part.
 std::string plan_text(const WorldBuilder& builder, const World& world, size_t frame);
 

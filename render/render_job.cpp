@@ -209,13 +209,13 @@ private:
         FrameReport report;
         report.frame = frame;
         report.name = builder_.frame_name(frame);
-        report.parts = builder_.parts();
+        report.parts = all_parts(builder_, *world);
         const auto before = builder_.device()->bytes();
         const auto build_start = std::chrono::steady_clock::now();
         const Tracer tracer(builder_.device(), *world);
         const auto built = std::chrono::steady_clock::now();
         report.parts.push_back({"acceleration structure", true, "Embree", std::chrono::duration<double>(built - build_start).count(),
-                                static_cast<uint64_t>(builder_.device()->bytes() - before)});
+                                static_cast<uint64_t>(std::max<int64_t>(0, builder_.device()->bytes() - before))});
         report.setup_seconds = std::chrono::duration<double>(built - start).count();
         report.grains = world->grain_count() + world->replaced_grains;
 

@@ -182,15 +182,17 @@ bool is_patterned(const World& world, const PackingSample& sample)
 
 } // namespace
 
-std::optional<GrainMedium> make_grain_medium(const World& world, EquivalentForm form, const Progress& progress)
+namespace {
+
+/// sample: of at least a grain.
+GrainMedium make_grain_medium(const World& world, PackingSample sample, EquivalentForm form, const Progress& progress)
 {
     GrainMedium result;
-    result.sample = sample_packing(world, sampled, progress);
-    if (result.sample.grains.empty()) return std::nullopt;
+    result.sample = std::move(sample);
     const MomentTable table(world.types, result.sample);
     constexpr double loosest = 1e-6, densest = 0.9; // heaps of a few grains, and of grains that overlap
     result.pack_rate = result.sample.pack_rate = std::clamp(result.sample.pack_rate, loosest, densest);
-    if (form == EquivalentForm::walk || form == EquivalentForm::decay) {
+    if (needs_walk(form)) {
         const BedWalk walked = walk_like(world, result.sample, progress);
         result.walk = walked.walk;
         result.pack_rate = walked.pack_rate;
@@ -199,8 +201,6 @@ std::optional<GrainMedium> make_grain_medium(const World& world, EquivalentForm 
     result.medium = continuous_equivalent(result.moments, form, result.walk ? &*result.walk : nullptr);
     return result;
 }
-
-namespace {
 
 std::optional<RegionSurface> surface_below(const World& world, double depth, const Progress& progress)
 {
@@ -211,16 +211,40 @@ std::optional<RegionSurface> surface_below(const World& world, double depth, con
     return inset_of_mesh(positions, mesh.triangles, depth, progress);
 }
 
-} // namespace
+/// Where a medium begins among grains.
+struct Core {
+    double below = 0; ///< every face
+    std::optional<RegionSurface> surface;
 
-void replace_grains(const GrainMedium& medium, const GrainDepth& depth, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
+    bool is_empty() const { return !surface || surface->triangles.empty(); }
+};
+
+/// As deep as a medium begins at least, whatever it is.
+double least_depth(const PackingSample& sample, const GrainDepth& depth) { return depth.all ? sample.volume_weighted_radius() : depth.radii * sample.mean_radius(); }
+
+constexpr const char* part = "medium of the grains";
+
+void take_all_grains(World& world)
+{
+    world.replaced_grains = world.grain_count();
+    world.grains = {};
+    world.fill = nullptr;
+}
+
+void report_no_core(double below, const PackingSample& sample, const GrainDepth& depth, double seconds, std::vector<PartReport>& parts, std::vector<std::string>& remarks)
+{
+    parts.push_back({part, false, depth.all ? "no grain is deeper than a radius" : fmt::format("no place is {:.3g} mean radii deep", below / sample.mean_radius()), seconds});
+    if (depth.all) remarks.push_back("no place is deeper among the grains than one of them: the picture lacks them");
+}
+
+/// core: as deep as the medium begins at least.
+void replace_grains(const GrainMedium& medium, const GrainDepth& depth, Core core, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
 {
     const Stopwatch watch;
-    const std::string part = "medium of the grains";
-    const bool all = depth.all;
-    const double radius = medium.sample.mean_radius(), below = all ? medium.sample.volume_weighted_radius() : std::max(depth.radii * radius, depth.flights / medium.medium.sigma_t);
-    std::optional<RegionSurface> surface = surface_below(world, below, progress);
-    if (surface && !surface->triangles.empty()) {
+    const double radius = medium.sample.mean_radius(), below = depth.all ? core.below : std::max(core.below, depth.flights / medium.medium.sigma_t);
+    if (below > core.below) core = {below, surface_below(world, below, progress)};
+    std::optional<RegionSurface>& surface = core.surface;
+    if (!core.is_empty()) {
         const MomentTable table(world.types, medium.sample);
         const LocalMedia media(medium, table);
         MediumRegion region;
@@ -239,14 +263,49 @@ void replace_grains(const GrainMedium& medium, const GrainDepth& depth, World& w
         if (surface->coarsened) remarks.push_back("the surface of the medium that stands for the grains is coarse: it would have too many voxels");
         if (!medium.medium.doubt.empty()) remarks.push_back("the medium of the grains: " + medium.medium.doubt);
     } else {
-        parts.push_back({part, false, all ? "no grain is deeper than a radius" : fmt::format("no place is {:.3g} mean radii deep", below / radius), watch.seconds()});
-        if (all) remarks.push_back("no place is deeper among the grains than one of them: the picture lacks them");
+        report_no_core(below, medium.sample, depth, watch.seconds(), parts, remarks);
     }
-    if (all) {
-        world.replaced_grains = world.grain_count();
-        world.grains = {};
-        world.fill = nullptr;
+    if (depth.all) take_all_grains(world);
+}
+
+} // namespace
+
+std::optional<GrainMedium> make_grain_medium(const World& world, EquivalentForm form, const Progress& progress)
+{
+    PackingSample sample = sample_packing(world, sampled, progress);
+    if (sample.grains.empty()) return std::nullopt;
+    return make_grain_medium(world, std::move(sample), form, progress);
+}
+
+void replace_grains(const GrainMedium& medium, const GrainDepth& depth, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
+{
+    const double below = least_depth(medium.sample, depth);
+    replace_grains(medium, depth, Core{below, surface_below(world, below, progress)}, world, parts, remarks, progress);
+}
+
+void replace_grains(EquivalentForm form, const GrainDepth& depth, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
+{
+    const char* walk = "walk in the packing";
+    const Stopwatch core_watch;
+    PackingSample sample = sample_packing(world, sampled, progress);
+    if (sample.grains.empty()) return; // there are none at all
+    const double below = least_depth(sample, depth);
+    Core core{below, surface_below(world, below, progress)};
+    if (core.is_empty()) {
+        parts.push_back({walk, false, "no medium follows from it"});
+        report_no_core(below, sample, depth, core_watch.seconds(), parts, remarks);
+        if (depth.all) take_all_grains(world);
+        return;
     }
+    const Stopwatch watch;
+    const GrainMedium medium = make_grain_medium(world, std::move(sample), form, progress);
+    if (medium.walk) {
+        const Measured& length = medium.walk->transport_length;
+        parts.push_back({walk, true, fmt::format("{} scatterings, transport length to {:.2g} %", medium.walk->scatterings, 100 * length.error / length.value), watch.seconds()});
+    } else {
+        parts.push_back({walk, false, "the form of the medium needs none"});
+    }
+    replace_grains(medium, depth, std::move(core), world, parts, remarks, progress);
 }
 
 } // namespace scree

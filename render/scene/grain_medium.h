@@ -37,4 +37,8 @@ struct GrainDepth {
 void replace_grains(const GrainMedium& medium, const GrainDepth& depth, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks,
                     const Progress& progress);
 
+/// Makes the medium of a form and puts it in the place of the grains; where no place is deep enough it walks nowhere. As the two above.
+void replace_grains(EquivalentForm form, const GrainDepth& depth, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks,
+                    const Progress& progress);
+
 } // namespace scree

@@ -41,6 +41,12 @@ double half_thickness(const GrainFacts& facts)
     return facts.bounds.isEmpty() ? 0 : 0.5 * std::min({extent.x, extent.y, extent.z});
 }
 
+std::string proxies_after(uint32_t grains)
+{
+    if (grains == 0) return "proxies stand for grains";
+    return grains == 1 ? "proxies stand for all grains but the first of a path" : fmt::format("proxies stand for all grains but the first {} of a path", grains);
+}
+
 /// How large the largest grain can look at most, in pixels.
 double largest_in_pixels(const CameraDescription& camera, const FilmDescription& film, const GrainFacts& facts)
 {
@@ -89,15 +95,17 @@ TransportPlan plan_transport(const IntegratorDescription& integrator, const Came
     plan.accuracy = integrator.accuracy;
     plan.medium_form = integrator.medium_form;
     plan.stf_form = integrator.stf_form;
+    plan.has_grains = facts.count > 0;
+    plan.why_no_medium = "the integrator traces grains everywhere";
     switch (integrator.kind) {
     case IntegratorKind::ept: plan.why = "every grain as it is"; break;
     case IntegratorKind::ppt:
         plan.explicit_grains = integrator.explicit_grains.value_or(0);
-        plan.why = "proxies stand for grains";
+        plan.why = proxies_after(plan.explicit_grains);
         break;
     case IntegratorKind::stf:
     case IntegratorKind::vpt:
-        plan.has_grain_medium = plan.replaces_all = facts.count > 0;
+        plan.has_grain_medium = plan.replaces_all = plan.has_grains;
         plan.why = "a medium stands for all grains";
         break;
     case IntegratorKind::automatic: {
@@ -110,27 +118,34 @@ TransportPlan plan_transport(const IntegratorDescription& integrator, const Came
         else {
             plan.explicit_grains = switches.explicit_grains;
             plan.least_pixels = switches.least_pixels;
-            plan.why = "proxies stand for all grains but the first of a path";
+            plan.why = proxies_after(plan.explicit_grains);
             if (const double pixels = largest_in_pixels(camera, film, facts); plan.explicit_grains > 0 && pixels < plan.least_pixels) {
                 plan.explicit_grains = 0;
-                plan.why = fmt::format("proxies stand for grains: the largest looks {:.2g} pixels wide", pixels);
+                plan.why = fmt::format("{}: the largest looks {:.2g} pixels wide", proxies_after(0), pixels);
             } else if (plan.explicit_grains == 0) {
-                plan.why = "proxies stand for grains: the accuracy is that of a draft";
+                plan.why = proxies_after(0) + ": the accuracy is that of a draft";
             }
             plan.has_grain_medium = half_thickness(facts) > least_core * plan.depth_radii * facts.mean_radius;
+            plan.why_no_medium = fmt::format("hardly a grain is {:g} mean radii deep", plan.depth_radii);
         }
-        plan.explicit_grains = integrator.explicit_grains.value_or(plan.explicit_grains);
+        if (integrator.explicit_grains) { // as they are, then, however small they look
+            plan.explicit_grains = *integrator.explicit_grains;
+            plan.least_pixels = 0;
+            plan.why = proxies_after(plan.explicit_grains) + ", as asked for";
+        }
         break;
     }
     }
-    if (integrator.grain_depth && !plan.replaces_all && facts.count > 0) {
+    if (integrator.grain_depth && !plan.replaces_all && plan.has_grains) {
         plan.depth_radii = *integrator.grain_depth;
         plan.depth_flights = 0;
         plan.has_grain_medium = half_thickness(facts) > plan.depth_radii * facts.mean_radius;
+        plan.why_no_medium = fmt::format("no place is {:g} mean radii deep", plan.depth_radii);
     }
     plan.has_shells = integrator.shells.value_or(integrator.kind == IntegratorKind::stf || (integrator.kind == IntegratorKind::automatic && integrator.accuracy != Accuracy::reference));
     if (integrator.kind == IntegratorKind::automatic && !integrator.shells) plan.least_shell = worthwhile_shell;
-    if (facts.count == 0) plan.why = "the scene has no grains";
+    if (!plan.has_grains) plan.why = plan.why_no_medium = "the scene has no grains";
+    if (plan.has_grain_medium) plan.why_no_medium.clear();
     return plan;
 }
 

@@ -30,6 +30,7 @@ double rough_loss(const Material& material, double radius);
 struct TransportPlan {
     IntegratorKind kind = IntegratorKind::ept;
     Accuracy accuracy = Accuracy::standard;
+    bool has_grains = false;               ///< the scene has any
     uint32_t explicit_grains = all_grains; ///< grains of a path that are traced as they are; further ones are proxies
     double least_pixels = 0;               ///< grains that look smaller in the picture are proxies from the first on
     bool has_grain_medium = false;         ///< a medium stands for some grains,
@@ -40,10 +41,11 @@ struct TransportPlan {
     StfForm stf_form = StfForm::full;
     double least_shell = 1;                ///< mean free paths: of the largest in a medium, else it gets none
     std::string why;                       ///< why grains are taken in this way
+    std::string why_no_medium;             ///< empty where a medium stands for grains
 
-    bool has_proxies() const { return explicit_grains != all_grains && !replaces_all; }
+    bool has_proxies() const { return has_grains && explicit_grains != all_grains && !replaces_all; }
     /// Whether a path can meet grains as they are.
-    bool has_exemplars() const { return explicit_grains > 0 && !replaces_all; }
+    bool has_exemplars() const { return has_grains && explicit_grains > 0 && !replaces_all; }
     bool needs_gsdfs() const { return has_proxies() || has_grain_medium; }
     /// In a word for a picture's header: what it does, for auto.
     std::string name() const;

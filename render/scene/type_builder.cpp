@@ -85,11 +85,12 @@ uint64_t TypeBuilder::build(const std::vector<GrainTypeDescription>& types, cons
 {
     for (size_t i = 0; i < types.size(); ++i) {
         const GrainTypeDescription& type = types[i];
-        GrainType made{type.name, type.material, nullptr};
-        made.material.absorption *= static_cast<float>(world.space.world_length(1));
-        if (!used[i]) {
-            request.parts.push_back({"exemplar '" + type.name + "'", false, "no grain has this type"});
+        GrainType made{type.name, {}, nullptr};
+        if (!used[i]) { // nor is anything made because its material would need it
+            for (const char* part : {"exemplar", "gsdf"}) request.parts.push_back({fmt::format("{} '{}'", part, type.name), false, "no grain has this type"});
         } else {
+            made.material = type.material;
+            made.material.absorption *= static_cast<float>(world.space.world_length(1));
             const bool is_new = !shapes_.contains(type.name);
             Shape& shape = shapes_[type.name];
             if (is_new) shape.hash = hash_shape(shape_source(type));

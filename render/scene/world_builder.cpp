@@ -178,6 +178,7 @@ Spheres WorldBuilder::Impl::read_spheres(size_t number, const Progress& progress
 void WorldBuilder::Impl::decide(const GrainFacts& facts)
 {
     plan = plan_transport(scene.integrator, scene.camera, scene.film, facts);
+    if (scene.media.empty() && !plan.has_grain_medium) plan.has_shells = false;
 }
 
 GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, const TypeRequest& request, World& world)
@@ -188,8 +189,8 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, const TypeRequest& r
     double sections = 0;
     std::vector<uint8_t> used(scene.types.size(), 0);
     for (size_t i = 0; i < frame.size(); ++i) {
-        used[spheres.types[i]] = 1;
         if (!(frame.radius[i] > 0)) continue;
+        used[spheres.types[i]] = 1;
         bounds.extend(frame.position[i], frame.radius[i]);
         ++facts.count;
         facts.mean_radius += frame.radius[i];
@@ -257,7 +258,7 @@ void WorldBuilder::Impl::make_fill(const TypeRequest& request, World& world)
     const ProceduralFill& spheres = *fill->fill;
     set_domain(spheres.domain().bounds(), world);
     world.fill = std::make_shared<GrainFill>(fill->fill, fill->mixture, world.space);
-    GrainFacts facts{static_cast<uint64_t>(spheres.expected_count()), 0, spheres.largest_radius(), spheres.domain().bounds()};
+    GrainFacts facts{static_cast<uint64_t>(std::ceil(spheres.expected_count())), 0, spheres.largest_radius(), spheres.domain().bounds()};
     for (uint64_t row = 0; row < spheres.tile().rows(); ++row) facts.mean_radius += spheres.radius(row) / static_cast<double>(spheres.tile().rows());
     constexpr uint64_t drawn = 4096; // which types there are is up to the mixture
     for (uint64_t n = 0; n < drawn; ++n) {
@@ -317,11 +318,9 @@ std::shared_ptr<const EnvironmentMap> WorldBuilder::Impl::read_map(size_t light)
     const LightDescription& description = scene.lights[light];
     if (description.kind != LightDescription::Kind::environment) return nullptr;
     auto& map = maps[light];
-    if (!map) {
-        const Stopwatch watch;
-        map = std::make_shared<EnvironmentMap>(read_environment(description.file, description.up, description.scale));
-        parts.push_back({"environment map", true, description.file.filename().string(), watch.seconds(), 0});
-    }
+    const Stopwatch watch;
+    if (!map) map = std::make_shared<EnvironmentMap>(read_environment(description.file, description.up, description.scale));
+    parts.push_back({"environment map", true, description.file.filename().string(), watch.seconds(), map->texels().size() * sizeof(C3f)});
     hash = hash_vector(map->texels(), hash);
     return map;
 }
@@ -330,46 +329,43 @@ std::shared_ptr<const EnvironmentMap> WorldBuilder::Impl::read_map(size_t light)
 void WorldBuilder::Impl::replace_grains(World& world, const Progress& progress, Precompute precompute)
 {
     const auto skip = [&](const char* part, const std::string& why) { parts.push_back({part, false, why}); };
-    if (!plan.has_grain_medium || !world.has_grains()) {
-        const bool wanted = plan.depth_radii > 0 && plan.has_proxies();
-        skip("medium of the grains", !world.has_grains() ? "the scene has no grains" : wanted ? fmt::format("hardly a grain is {:g} mean radii deep", plan.depth_radii) : "grains are traced everywhere");
-        return;
-    }
+    if (!plan.has_grain_medium || !world.has_grains()) return skip("medium of the grains", world.has_grains() ? plan.why_no_medium : "the scene has no grains");
     const bool all = plan.replaces_all;
     const GrainDepth depth{all, plan.depth_radii, plan.depth_flights};
     hash = hash_bytes(&plan.depth_radii, sizeof plan.depth_radii, mix64(hash + static_cast<uint64_t>(plan.medium_form) + 16 * all));
     if (all && scene.integrator.grain_depth) frame_warnings.push_back("grain_depth has no effect with vpt and stf, which trace no grains");
     if (precompute == Precompute::never) {
+        if (needs_walk(plan.medium_form)) parts.push_back({"walk in the packing", true, "to be walked"});
+        else skip("walk in the packing", "the form of the medium needs none");
         parts.push_back({"medium of the grains", true, all ? "to be made, in place of all grains" : fmt::format("to be made, where there is a place {:g} mean radii below every face", plan.depth_radii)});
         return;
     }
-    const Stopwatch watch;
-    const auto medium = make_grain_medium(world, plan.medium_form, progress);
-    if (!medium) return;
-    if (medium->walk) {
-        parts.push_back({"walk in the packing", true, fmt::format("{} scatterings, transport length to {:.2g} %", medium->walk->scatterings, 100 * medium->walk->transport_length.error / medium->walk->transport_length.value), watch.seconds()});
-    } else {
-        skip("walk in the packing", "the form of the medium needs none");
-    }
-    scree::replace_grains(*medium, depth, world, parts, frame_warnings, progress);
+    scree::replace_grains(plan.medium_form, depth, world, parts, frame_warnings, progress);
 }
 
 /// Finds how far places in media are from everything, and the shells that light may go through there.
 void WorldBuilder::Impl::make_shells(World& world, const Progress& progress, Precompute precompute)
 {
-    const bool to_come = precompute == Precompute::never && (plan.has_grain_medium || !scene.media.empty());
-    const auto skip = [&](const char* why) { parts.push_back({"shells", false, why}); };
+    const auto skip = [&](const char* part, const char* why) { parts.push_back({part, false, why}); };
+    constexpr const char* distances = "distances within media";
+    constexpr const char* none = "there is no medium";
+    constexpr const char* unknown = "grains, or a spherical light, may be met in it";
+    constexpr const char* stepwise = "light is followed from scattering to scattering in media";
     hash = mix64(hash ^ (plan.has_shells ? 2 + static_cast<uint64_t>(plan.stf_form) : 1));
-    if (to_come) {
-        if (plan.has_shells) parts.push_back({"shells", true, "to be made, where a medium is thicker than a mean free path"});
-        else skip("light is followed from scattering to scattering in media");
+    if (precompute == Precompute::never && (plan.has_grain_medium || media.has_any())) {
+        const bool known = plan.replaces_all || !world.has_grains() || !media.has_any();
+        if (known) parts.push_back({distances, true, "to be found, unless a spherical light may be met in a medium"});
+        else skip(distances, unknown);
+        if (plan.has_shells && known) parts.push_back({"shells", true, "to be made, where a medium is thicker than a mean free path"});
+        else skip("shells", plan.has_shells ? unknown : stepwise);
         return;
     }
     const Stopwatch watch;
     world.clearance = make_clearance(world, progress);
-    if (world.clearance) parts.push_back({"distances within media", true, "", watch.seconds(), world.clearance->bytes()});
-    if (world.regions.empty()) return skip("there is no medium");
-    if (!plan.has_shells) return skip("light is followed from scattering to scattering in media");
+    if (world.clearance) parts.push_back({distances, true, "from all that may be met there", watch.seconds(), world.clearance->bytes()});
+    else skip(distances, world.regions.empty() ? none : unknown);
+    if (world.regions.empty()) return skip("shells", none);
+    if (!plan.has_shells) return skip("shells", stepwise);
     if (!shells) shells = std::make_unique<StfCache>(cache_folder(), stf_options(plan.accuracy));
     add_shells(plan.stf_form, plan.least_shell, *shells, world, parts, frame_warnings, progress);
 }
@@ -378,6 +374,9 @@ LightSet WorldBuilder::Impl::make_lights(const World& world)
 {
     std::vector<Light> lights;
     bool point = false, glass = false;
+    if (std::ranges::none_of(scene.lights, [](const LightDescription& light) { return light.kind == LightDescription::Kind::environment; })) {
+        parts.push_back({"environment map", false, "no light has one"});
+    }
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         lights.push_back(make_light(scene.lights[i], read_map(i), world.space));
         point |= lights.back().kind == LightKind::distant && lights.back().one_minus_cos == 0;

@@ -230,6 +230,16 @@ TEST(SceneDescription, ReadsIntegrators)
     EXPECT_EQ(scene.integrator.max_depth, 7u);
     EXPECT_EQ(read_with(R"("integrator": {})").integrator.kind, IntegratorKind::automatic);
     EXPECT_EQ(read_with(R"("integrator": {"kind": "ppt", "explicit_grains": 2})").integrator.explicit_grains, 2u);
+    EXPECT_FALSE(scene.integrator.shells) << "as the integrator has it";
+    EXPECT_EQ(scene.integrator.stf_form, StfForm::full);
+    const IntegratorDescription stf = read_with(R"("integrator": {"kind": "stf", "shells": false, "stf_form": "diffusion"})").integrator;
+    EXPECT_EQ(stf.kind, IntegratorKind::stf);
+    EXPECT_EQ(stf.shells, std::optional(false));
+    EXPECT_EQ(stf.stf_form, StfForm::diffusion);
+    EXPECT_EQ(read_with(R"("integrator": {"shells": true})").integrator.shells, std::optional(true));
+    for (const auto& [name, form] : {std::pair{"full", StfForm::full}, {"cosine", StfForm::cosine}, {"hg", StfForm::hg}, {"interpolated", StfForm::interpolated}}) {
+        EXPECT_EQ(read_with(fmt::format(R"("integrator": {{"stf_form": "{}"}})", name)).integrator.stf_form, form);
+    }
 }
 
 TEST(SceneDescription, ReadsMedia)
@@ -384,6 +394,13 @@ const std::vector<Wrong> wrong_scenes{
     {R"("integrator": {"grain_depth": -1})", "/integrator/grain_depth", "-1", "0..", ""},
     {R"("integrator": {"medium_form": "wlk"})", "/integrator/medium_form", "wlk", "plain, formula, walk, decay", "did you mean 'walk'?"},
     {R"("integrator": {"kind": "epd"})", "/integrator/kind", "\"epd\"", "auto, ept, ppt, vpt", "did you mean 'ept'?"},
+    {R"("integrator": {"kind": "stff"})", "/integrator/kind", "\"stff\"", "auto, ept, ppt, vpt, stf", "did you mean 'stf'?"},
+    {R"("integrator": {"shells": "on"})", "/integrator/shells", "\"on\"", "true or false", ""},
+    {R"("integrator": {"shells": 1})", "/integrator/shells", "1", "true or false", ""},
+    {R"("integrator": {"shels": true})", "/integrator", "'shels'", "shells", "did you mean 'shells'"},
+    {R"("integrator": {"stf_form": "difusion"})", "/integrator/stf_form", "\"difusion\"", "full, cosine, hg, interpolated, diffusion", "did you mean 'diffusion'?"},
+    {R"("integrator": {"stf_form": 2})", "/integrator/stf_form", "2", "", ""},
+    {R"("integrator": {"stf_from": "full"})", "/integrator", "'stf_from'", "stf_form", ""},
     {R"("integrator": {"explicit_grains": -1})", "/integrator/explicit_grains", "-1", "0..", ""},
     {R"("integrator": {"accuracy": "best"})", "/integrator/accuracy", "\"best\"", "reference, high, standard, draft", ""},
     {R"("integrator": {"max_depth": 0})", "/integrator/max_depth", "0", "1..", ""},

@@ -48,6 +48,7 @@ GOOD_CHANGES = [
     (("$schema",), "scene.schema.json"),
     (("film",), REMOVE), (("lights",), REMOVE), (("lights",), []), (("surfaces",), REMOVE), (("grains",), REMOVE), (("medium",), REMOVE), (("medium",), []), (("medium", 0, "albedo"), [0, 0, 1]), (("medium", 0, "g"), -0.99), (("integrator", "kind"), "vpt"), (("integrator", "medium_form"), "plain"),
     (("integrator",), REMOVE), (("integrator",), {}), (("integrator", "kind"), "ept"), (("integrator", "kind"), "ppt"), (("integrator", "explicit_grains"), 1), (("integrator", "max_depth"), 1),
+    (("integrator", "kind"), "stf"), (("integrator", "shells"), True), (("integrator", "shells"), False), *[(("integrator", "stf_form"), form) for form in ("full", "cosine", "hg", "interpolated", "diffusion")],
     (("camera",), {"origin": [0, 1, 0], "target": [0, 0, 0]}),
     (("camera",), {"kind": "orthographic", "origin": [0, 1, 0], "target": [0, 0, 0], "width": 4, "aperture": 1, "focus": 2}),
     (("camera", "fov"), 179.5), (("camera", "fov"), 1e-3),
@@ -120,6 +121,7 @@ BAD_CHANGES = [
     (("grains", "seed"), 1),
     (("medium", 0, "sigma_t"), REMOVE), (("medium", 0, "mesh"), REMOVE), (("medium", 0, "g"), 1), (("medium", 0, "albedo"), 1.1), (("medium", 0, "sigma_t"), -1),
     (("medium", 0, "density"), "density"), (("integrator", "grain_depth"), -1), (("integrator", "medium_form"), "best"),
+    (("integrator", "kind"), "sft"), (("integrator", "shells"), "on"), (("integrator", "shells"), 1), (("integrator", "stf_form"), "best"), (("integrator", "stf_form"), True), (("integrator", "shels"), True),
     (("medium",), [{"mesh": "slab.off"}]), (("medium",), {}), (("integrator",), "ept"), (("integrator", "kind"), "epd"), (("integrator", "explicit_grains"), -1), (("integrator", "accuracy"), "best"),
     (("integrator", "max_depth"), 0), (("integrator", "max_depth"), 1.5), (("integrator", "depth"), 3), (("$schema",), 3), (("lihgts",), []),
 ]
