@@ -193,8 +193,10 @@ std::vector<PlanRow> plan_rows()
     planned("among grains", "slab among grains", {}, "shells", false, "grains, or a spherical light, may be met in it");
     planned("among no grains any more", "slab and bed", stf, "shells", true, "to be made");
     traced("slab", "slab", draft, distances, true, "from all that may be met there");
-    traced("slab", "slab", with(draft, diffusion), "shells of 'slab.obj'", true, "mean free paths for 1 values of g, 0 made now");
-    traced("slab", "slab", draft, "shells of 'slab.obj'", true, "mean free paths for 1 values of g, 3 made now");
+    const Arguments shells{"--shells", "on"};
+    traced("slab", "slab", with(with(draft, shells), diffusion), "shells of 'slab.obj'", true, "mean free paths for 1 values of g, 0 made now");
+    traced("slab", "slab", with(draft, shells), "shells of 'slab.obj'", true, "mean free paths for 1 values of g, 3 made now");
+    traced("small shells", "slab", draft, "shells of 'slab.obj'", false, "of use are 8 and more");
     traced("slab", "slab", vpt, "shells", false, "light is followed from scattering to scattering in media");
     traced("slab", "slab", vpt, distances, true, "from all that may be met there");
     traced("coloured", "coloured slab", stf, "shells of 'slab.obj'", false, "its extinction depends on the channel");
@@ -203,7 +205,7 @@ std::vector<PlanRow> plan_rows()
     traced("among grains", "slab among grains", draft, "shells of 'slab.obj'", false, "grains, or a spherical light, may be met in it");
     traced("around a light", "slab around a light", draft, "shells of 'slab.obj'", false, "grains, or a spherical light, may be met in it");
     traced("cloud", "cloud", with(draft, diffusion), "medium 'cloud.vdb'", true, "from grids");
-    traced("cloud", "cloud", with(draft, diffusion), "shells of 'cloud.vdb'", true, "for 1 values of g");
+    traced("cloud", "cloud", with(with(draft, shells), diffusion), "shells of 'cloud.vdb'", true, "for 1 values of g");
     traced("of grains", "bed", with(with(stf, diffusion), formula), "shells of 'medium of the grains'", true, "values of g");
     traced("empty", "empty cloud", draft, "shells", false, "there is no medium");
     return rows;
