@@ -58,10 +58,9 @@ bool Path::step_through_media(Hit& met)
 {
     if (const std::optional<bool> alive = step_through_shell(met)) return *alive;
     if (regions_ != 0) { // far from everything there is nothing to meet but the medium
-        const double clear = media_->clearance(o_);
-        if (clear > passed_) {
-            if (const MediumEvent event = medium_event(passed_, clear); event.scattered) return handle_medium(event, met);
-            passed_ = clear;
+        if (const double until = clear(); until > passed_) {
+            if (const MediumEvent event = medium_event(passed_, until); event.scattered) return handle_medium(event, met);
+            passed_ = until;
         }
     }
     ++result_.segments;
@@ -146,13 +145,24 @@ bool Path::handle_medium(const MediumEvent& event, Hit& met)
     weight_ *= event.albedo;
     if (!survives()) return false;
     o_ = met.point;
-    if (world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only) add_phase_light(o_, d_, event.phase, C3f(1));
+    clear_ = -1;
+    if (world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only) {
+        // Deep in a medium light is looked for as often as it could come through to there.
+        double reached = 1;
+        if (std::has_single_bit(regions_)) {
+            const MediumRegion& region = world_.regions[static_cast<size_t>(std::countr_zero(regions_))];
+            if (region.homogeneous && region.is_achromatic()) reached = std::exp(-region.homogeneous->sigma_t().x * clear());
+        }
+        if (reached >= 1 || sampler_.next() < reached) add_phase_light(o_, d_, event.phase, C3f(static_cast<float>(1 / reached)));
+    }
 
     const double u = sampler_.next(), phi = 2 * pi * sampler_.next();
     const double cosine = event.phase.sample(u), sine = safe_sqrt(1 - cosine * cosine);
     const V3d w = Frame(d_).to_world({sine * std::cos(phi), sine * std::sin(phi), cosine});
     last_ = {false, event.phase.pdf(cosine), o_};
+    const double here = clear_;
     start_ray(o_, w.normalized(), {});
+    clear_ = here;
     return true;
 }
 

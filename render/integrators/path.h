@@ -64,6 +64,12 @@ private:
     C3f passing(const V3d& o, const V3d& d, double distance, const Place& from, uint32_t light, RegionSet regions);
     C3f passing_media(V3d o, const V3d& d, double distance, Place from, uint32_t light, RegionSet regions);
 
+    double clear()
+    {
+        if (clear_ < 0) clear_ = media_->clearance(o_);
+        return clear_;
+    }
+
     // Through shells (shell_vertex.cpp).
     /// Goes to the surface of the largest shell that fits around the path's place; whether the path goes on, or nothing where none fits.
     std::optional<bool> step_through_shell(Hit& met);
@@ -84,6 +90,7 @@ private:
         from_ = from;
         beyond_ = passed_ = 0;
         crossed_ = false;
+        clear_ = -1;
     }
 
     // Each handles one vertex; false when the path ends there.
@@ -127,6 +134,7 @@ private:
     RegionSet regions_ = 0;    // that the path is in
     Crossing crossing_;        // the last on this ray, if crossed_
     bool crossed_ = false;
+    double clear_ = -1;        // around the ray's start nothing but media is nearer; below 0: not asked yet
     double passed_ = 0;        // along the ray: up to there media and their surfaces are behind
     double moved_ = 0;         // how far the camera's ray came before its start was moved
     SpectralState spectral_;

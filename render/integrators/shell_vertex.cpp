@@ -13,7 +13,7 @@ std::optional<bool> Path::step_through_shell(Hit& met)
     if (!std::has_single_bit(regions_) || passed_ > 0 || (surrounding_ && !is_black(surrounding_->absorption))) return std::nullopt;
     const MediumShells* shells = world_.regions[static_cast<size_t>(std::countr_zero(regions_))].shells.get();
     if (!shells) return std::nullopt;
-    const double clear = media_->clearance(o_);
+    const double clear = this->clear();
     FittingShell shell;
     if (!shells->fit(o_, clear, shells->needs_chance() ? sampler_.next() : 0, shell)) return std::nullopt;
 
