@@ -52,20 +52,28 @@ private:
             place_ += r * direction_;
             return;
         }
-        const double u = sampler_.next(), v = sampler_.next(), w = sampler_.next();
-        const ShellFrame of_event(direction_, w);
-        const ShellEvent& event = shell.event(u);
-        const V3d at = place_ + of_event.to_world({event.aside, 0, event.along});
-        // The shell's scatterings are drawn by how close they are to its own surface.
-        note(at, of_event.to_world(V3d(event.direction)), events_ + event.events, shell.event_weight() * std::exp(at.length() - radius_) / shell.closeness(event));
+        // What scatters so deep that hardly any of it counts is looked at as seldom.
+        const double reached = std::exp(std::min(0.0, place_.length() + r - radius_));
+        if (reached >= 1 || sampler_.next() < reached) note_one_of(shell, 1 / reached);
         const ShellFrame frame(direction_, sampler_.next());
-        const ShellExit& exit = shell.exit(v);
+        const ShellExit& exit = shell.exit(sampler_.next());
         const ShellPlace there = place_of(exit);
         place_ += r * frame.to_world(there.place);
         direction_ = frame.to_world(there.direction).normalized();
         scattered_at_ = place_ - double{exit.flight} * direction_;
         cosine_ = exit.cosine;
         events_ += exit.events;
+    }
+
+    /// Notes one of a shell's scatterings for all of them.
+    void note_one_of(const ShellSampler& shell, double weight)
+    {
+        const ShellFrame frame(direction_, sampler_.next());
+        const ShellEvent& event = shell.event(sampler_.next());
+        const V3d at = place_ + frame.to_world({event.aside, 0, event.along});
+        // The shell's scatterings are drawn by how close they are to its own surface.
+        weight *= shell.event_weight() * std::exp(at.length() - radius_) / shell.closeness(event);
+        note(at, frame.to_world(V3d(event.direction)), events_ + event.events, weight);
     }
 
     void note(const V3d& place, const V3d& direction, uint32_t events, double weight)
