@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 
 namespace scree {
 
@@ -55,6 +56,16 @@ void AtomicFile::commit()
     std::filesystem::rename(temporary_, target_, failure);
     if (failure) throw InputError(target_.string(), failure.message(), "a place where a file can be written");
     committed_ = true;
+}
+
+void write_whole(const std::filesystem::path& path, std::string_view text)
+{
+    AtomicFile file(path);
+    std::ofstream out(file.temporary(), std::ios::binary);
+    out << text;
+    out.close();
+    if (!out) throw InputError(path.string(), "a file that cannot be written in full", "room for it");
+    file.commit();
 }
 
 } // namespace scree

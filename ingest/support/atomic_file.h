@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 namespace scree {
 
@@ -26,5 +27,8 @@ private:
     std::filesystem::path target_, temporary_;
     bool committed_ = false;
 };
+
+/// Writes a file that appears whole or not at all. Throws InputError.
+void write_whole(const std::filesystem::path& path, std::string_view text);
 
 } // namespace scree

@@ -2,6 +2,7 @@
 
 #include "render/grains/library/grain_library.h"
 #include "render/gsdf/gsdf_command.h"
+#include "render/stf/stf_command.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -103,6 +104,7 @@ void add_grains_command(CLI::App& app)
     add_grains_export_command(*grains);
     add_grains_show_command(*grains);
     add_gsdf_command(*grains);
+    add_stf_command(*grains);
 }
 
 } // namespace scree

@@ -1,5 +1,7 @@
 #include "render/gsdf/error_figure.h"
 
+#include "render/figure_drawing.h"
+
 #include <fmt/format.h>
 
 namespace scree {
@@ -8,7 +10,7 @@ namespace {
 
 using Map = ScatteringMap;
 
-constexpr ScreenColor paper{255, 255, 255}, ink{40, 40, 40}, faint{140, 140, 140};
+constexpr ScreenColor paper = figure_paper, ink = figure_ink, faint = figure_faint;
 constexpr double lowest = 0.01, highest = 10; // of relative errors that are told apart
 
 /// Where everything stands.
@@ -31,11 +33,6 @@ struct Layout {
     }
     int sheet_left(int sheet) const { return left + sheet * (static_cast<int>(Map::turns) * pitch + gap); }
 };
-
-void centre_text(Picture& picture, int x, int y, const std::string& text, ScreenColor color, int scale)
-{
-    picture.draw_text(x - Picture::text_width(text, scale) / 2, y, text, color, scale);
-}
 
 /// Relative error of a cell.
 double relative_error(const Map& gsdf, const Map& truth, uint32_t row, uint32_t turn, uint32_t direction)
@@ -67,10 +64,10 @@ void draw_disc(Picture& picture, const Map& gsdf, const Map& truth, const Layout
 void draw_sheet(Picture& picture, const Map& gsdf, const Map& truth, const Layout& l, int sheet)
 {
     const int left = l.sheet_left(sheet), width = static_cast<int>(Map::turns) * l.pitch;
-    centre_text(picture, left + width / 2, l.margin + l.line, sheet == 0 ? "front-facing" : "back-facing", ink, l.scale);
+    draw_text_centred(picture, left + width / 2, l.margin + l.line, sheet == 0 ? "front-facing" : "back-facing", ink, l.scale);
     for (uint32_t turn = 0; turn < Map::turns; ++turn) {
         const int middle = left + static_cast<int>(turn) * l.pitch + l.pitch / 2;
-        centre_text(picture, middle, l.margin + 2 * l.line, fmt::format("{:.0f}", 360.0 * turn / Map::turns), faint, l.scale);
+        draw_text_centred(picture, middle, l.margin + 2 * l.line, fmt::format("{:.0f}", 360.0 * turn / Map::turns), faint, l.scale);
         for (uint32_t row = 0; row < Map::rows; ++row) draw_disc(picture, gsdf, truth, l, sheet, row, turn);
     }
 }
@@ -97,7 +94,7 @@ void draw_bar(Picture& picture, const Layout& l)
     for (const double tick : {0.01, 0.1, 1.0, 10.0}) {
         const int x = left + static_cast<int>(std::lround((right - 1 - left) * std::log(tick / lowest) / std::log(highest / lowest)));
         picture.fill_rectangle(x, l.bar_top + l.line - l.scale, 1, 3 * l.scale, ink);
-        centre_text(picture, x, l.bar_top + l.line + 3 * l.scale, fmt::format("{:g} %", 100 * tick), ink, l.scale);
+        draw_text_centred(picture, x, l.bar_top + l.line + 3 * l.scale, fmt::format("{:g} %", 100 * tick), ink, l.scale);
     }
 }
 
@@ -105,12 +102,7 @@ void draw_bar(Picture& picture, const Layout& l)
 
 ScreenColor error_color(double relative)
 {
-    constexpr double anchors[][3] = {{8, 6, 20}, {70, 15, 105}, {165, 40, 95}, {230, 95, 45}, {250, 180, 40}, {252, 250, 200}};
-    constexpr int last = std::size(anchors) - 1;
-    const double at = std::clamp(std::log(std::max(relative, lowest) / lowest) / std::log(highest / lowest), 0.0, 1.0) * last;
-    const int low = std::min(last - 1, static_cast<int>(at));
-    const auto channel = [&](int c) { return static_cast<uint8_t>(std::lround(anchors[low][c] + (at - low) * (anchors[low + 1][c] - anchors[low][c]))); };
-    return {channel(0), channel(1), channel(2)};
+    return heat_color(std::log(std::max(relative, lowest) / lowest) / std::log(highest / lowest));
 }
 
 Picture draw_error_figure(const ScatteringMap& gsdf, const ScatteringMap& truth, int width, int height, const std::string& title,

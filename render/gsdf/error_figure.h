@@ -19,7 +19,4 @@ ScreenColor error_color(double relative);
 Picture draw_error_figure(const ScatteringMap& gsdf, const ScatteringMap& truth, int width, int height, const std::string& title,
                           const std::vector<std::string>& caption);
 
-/// Smaller pictures have no room for it.
-inline constexpr int least_figure_width = 480, least_figure_height = 320;
-
 } // namespace scree

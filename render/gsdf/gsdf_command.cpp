@@ -3,10 +3,11 @@
 #include "ingest/support/atomic_file.h"
 #include "ingest/support/console_progress.h"
 #include "ingest/support/error.h"
-#include "ingest/support/text.h"
+#include "render/figure_drawing.h"
 #include "render/film/exr_output.h"
 #include "render/gsdf/error_figure.h"
 #include "render/gsdf/gsdf_report.h"
+#include "render/gsdf/subject_options.h"
 #include "render/interrupt.h"
 #include "render/scene/embree_device.h"
 #include "render/scene/part_report.h"
@@ -16,7 +17,6 @@
 #include <tbb/global_control.h>
 
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <optional>
 
@@ -37,21 +37,6 @@ struct Arguments {
     bool quiet = false;
 };
 
-struct FigureSize {
-    int width, height;
-};
-
-FigureSize read_size(const std::string& text)
-{
-    const size_t x = text.find('x');
-    const auto width = to_int64(text.substr(0, x));
-    const auto height = x == std::string::npos ? std::nullopt : to_int64(text.substr(x + 1));
-    if (!width || !height || *width < least_figure_width || *height < least_figure_height || *width > 16384 || *height > 16384) {
-        throw InputError("--size", in_quotes(text), fmt::format("WIDTHxHEIGHT in pixels, {}x{} to 16384x16384", least_figure_width, least_figure_height));
-    }
-    return {static_cast<int>(*width), static_cast<int>(*height)};
-}
-
 /// Everything that can be wrong, before the work.
 void check_outputs(const Arguments& a)
 {
@@ -62,23 +47,13 @@ void check_outputs(const Arguments& a)
     if (!a.json.empty() && a.json != "-") AtomicFile(a.json);
 }
 
-void write_text(const std::string& path, const std::string& text)
-{
-    AtomicFile file(path);
-    std::ofstream out(file.temporary(), std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) throw InputError(path, "a file that cannot be written in full", "room for it");
-    file.commit();
-}
-
 class Command {
 public:
-    explicit Command(const Arguments& arguments) : a_(arguments), size_(read_size(a_.size)), console_(a_.quiet) {}
+    explicit Command(const Arguments& arguments) : a_(arguments), size_(read_figure_size(a_.size)), console_(a_.quiet) {}
 
     void run()
     {
-        const std::vector<GsdfSubject> subjects = gsdf_subjects(a_.words, a_.subject);
+        const std::vector<GsdfSubject> subjects = gsdf_subjects(a_.words, a_.subject, "scree grains gsdf");
         if (!a_.figure.empty() && subjects.size() > 1) throw InputError("--figure", fmt::format("{} grains", subjects.size()), "one grain a figure");
         check_outputs(a_);
         std::vector<uint64_t> hashes; // of the shapes: a missing file is told before the work as well
@@ -97,7 +72,7 @@ public:
         }
         if (!a_.figure.empty()) draw(reports.front(), table);
         if (a_.json == "-") fmt::print("{}", gsdf_json(reports));
-        else if (!a_.json.empty()) write_text(a_.json, gsdf_json(reports));
+        else if (!a_.json.empty()) write_whole(a_.json, gsdf_json(reports));
     }
 
 private:
@@ -148,28 +123,11 @@ private:
     std::optional<EmbreeDevice> device_;
 };
 
-/// As CLI::Range, which lets NaN pass.
-CLI::Validator number_in(double least, double most)
-{
-    const auto check = [least, most](const std::string& text) {
-        const auto number = to_double(text);
-        return number && *number >= least && *number <= most ? std::string() : fmt::format("{} is not a number from {:g} to {:g}", in_quotes(text), least, most);
-    };
-    return {check, fmt::format("{:g} to {:g}", least, most)};
-}
-
 void add_options(CLI::App& command, Arguments& a)
 {
     command.add_option("what", a.words, "Grains of the library, 'all' of them, 'sphere', or mesh files (.obj .ply .stl .off)")->required();
-    command.add_option("--material", a.subject.material, "lambert, dielectric or conductor (default: the library's, or a dielectric of index 1.5)");
-    command.add_option("--ior", a.subject.ior, "Refractive index of a dielectric")->check(number_in(0.1, 10));
-    command.add_option("--roughness", a.subject.roughness, "Of a dielectric or conductor, 0 (smooth) to 1")->check(number_in(0, 1));
-    command.add_option("--eta", a.subject.eta, "Of a conductor: its index, one number or red,green,blue");
-    command.add_option("--k", a.subject.k, "Of a conductor: the index's imaginary part");
+    add_subject_options(command, a.subject);
     command.add_option("--error", a.gsdf.error, "Mean relative error wanted of the density of directions (default 0.03; the renderer asks for 0.005, 0.01, 0.03, 0.08 at accuracy reference, high, standard, draft)")->check(number_in(1e-4, 1));
-    command.add_option("--seed", a.subject.seed, "Which individual of the library's grains")->check(CLI::NonNegativeNumber);
-    command.add_option("--triangles", a.subject.triangles, "Of the library's shapes, about (default: the type's)")
-        ->check(CLI::Range(least_shape_triangles, most_shape_triangles));
     command.add_flag("--force", a.again, "Trace again what is in the cache");
     command.add_option("--figure", a.figure, "Picture of the error maps of one grain to write (.png, ...), and a table of what simpler forms miss");
     command.add_option("--size", a.size, "Of that picture, WIDTHxHEIGHT pixels (default 1600x1130)");

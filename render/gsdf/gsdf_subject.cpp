@@ -9,11 +9,10 @@ namespace scree {
 
 namespace {
 
-const std::string place = "scree grains gsdf";
 const std::vector<std::string> kinds{"lambert", "dielectric", "conductor"};
 constexpr double largest_index = 1000; // of a metal, with room
 
-[[noreturn]] void fail_on_name(const std::string& word)
+[[noreturn]] void fail_on_name(const std::string& word, const std::string& place)
 {
     std::vector<std::string> names{"all", "sphere"};
     for (const LibraryGrain& grain : grain_library()) names.push_back(grain.name);
@@ -63,7 +62,7 @@ void override_material(const SubjectOptions& options, Material& material, const 
     material.k = rgb(options.k, material.k, "--k");
 }
 
-GsdfSubject subject_of(const std::string& word)
+GsdfSubject subject_of(const std::string& word, const std::string& place)
 {
     GsdfSubject subject;
     subject.name = word;
@@ -74,7 +73,7 @@ GsdfSubject subject_of(const std::string& word)
         subject.material = grain->material;
         return subject;
     }
-    if (!is_mesh_file_name(word)) fail_on_name(word);
+    if (!is_mesh_file_name(word)) fail_on_name(word, place);
     subject.shape.mesh = word;
     return subject;
 }
@@ -87,15 +86,15 @@ bool is_mesh_file_name(const std::string& word)
     return extension == ".obj" || extension == ".ply" || extension == ".stl" || extension == ".off" || word.find('/') != std::string::npos;
 }
 
-std::vector<GsdfSubject> gsdf_subjects(const std::vector<std::string>& words, const SubjectOptions& options)
+std::vector<GsdfSubject> gsdf_subjects(const std::vector<std::string>& words, const SubjectOptions& options, const std::string& place)
 {
     std::vector<GsdfSubject> subjects;
     for (const std::string& word : words) {
         if (word != "all") {
-            subjects.push_back(subject_of(word));
+            subjects.push_back(subject_of(word, place));
             continue;
         }
-        for (const LibraryGrain& grain : grain_library()) subjects.push_back(subject_of(grain.name));
+        for (const LibraryGrain& grain : grain_library()) subjects.push_back(subject_of(grain.name, place));
     }
     bool of_library = false;
     for (GsdfSubject& subject : subjects) {

@@ -29,7 +29,8 @@ bool is_mesh_file_name(const std::string& word);
 /// The grains that the words mean: names of the library (with its materials), "all" of them, "sphere", or mesh files (both
 /// dielectrics of index 1.5 unless the options say otherwise).
 ///
-/// Throws InputError for a word that means none, with the nearest that would, and for options that apply to none of them.
-std::vector<GsdfSubject> gsdf_subjects(const std::vector<std::string>& words, const SubjectOptions& options);
+/// place: the command, for messages. Throws InputError for a word that means none, with the nearest that would, and for options that apply
+/// to none of them.
+std::vector<GsdfSubject> gsdf_subjects(const std::vector<std::string>& words, const SubjectOptions& options, const std::string& place);
 
 } // namespace scree

@@ -1,6 +1,7 @@
 #include "render/stf/stf_builder.h"
 
 #include "ingest/support/error.h"
+#include "render/scene/part_report.h"
 #include "render/stf/shell_walk.h"
 
 #include <fmt/format.h>
@@ -96,7 +97,7 @@ StfShell make_shell(const PhaseFunction& phase, size_t number, std::span<const S
 
 } // namespace
 
-void extend_stf(Stf& stf, size_t shells, const StfOptions& options, const Progress& progress)
+std::vector<double> extend_stf(Stf& stf, size_t shells, const StfOptions& options, const Progress& progress)
 {
     if (options.walks < 1u << 10 || options.walks > 1u << 24 || options.records < 1u << 6 || options.records > 1u << 20) {
         throw InputError("shell transport functions", fmt::format("{} walks, {} records", options.walks, options.records), "2^10 to 2^24 walks, 2^6 to 2^20 records");
@@ -104,12 +105,16 @@ void extend_stf(Stf& stf, size_t shells, const StfOptions& options, const Progre
     stf.shells.reserve(shells); // samplers point at them
     std::vector<ShellSampler> smaller;
     for (const StfShell& shell : stf.shells) smaller.emplace_back(shell, 1.0);
+    std::vector<double> seconds;
     while (stf.shells.size() < shells) {
+        const Stopwatch watch;
         const size_t number = stf.shells.size();
         progress.update(fmt::format("shell of {:.3g} mean free paths", Stf::radius(number)), static_cast<double>(number) / static_cast<double>(shells));
         stf.shells.push_back(make_shell(stf.phase, number, smaller, options, progress));
         smaller.emplace_back(stf.shells.back(), 1.0);
+        seconds.push_back(watch.seconds());
     }
+    return seconds;
 }
 
 } // namespace scree

@@ -12,7 +12,9 @@ struct StfOptions {
 };
 
 /// Adds shells until there are `shells`, by walks that use the smaller ones. Does not depend on the number of threads, nor on how many there were
-/// before. What a mean over a shell's records is off by is about its walks' standard deviation / sqrt(walks). Throws Cancelled, InputError.
-void extend_stf(Stf& stf, size_t shells, const StfOptions& options, const Progress& progress);
+/// before. What a mean over a shell's records is off by is about its walks' standard deviation / sqrt(walks).
+///
+/// Returns the seconds that each took. Throws Cancelled, InputError.
+std::vector<double> extend_stf(Stf& stf, size_t shells, const StfOptions& options, const Progress& progress);
 
 } // namespace scree

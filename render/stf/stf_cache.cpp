@@ -55,7 +55,7 @@ StfCache::Found StfCache::find(double g, const std::shared_ptr<const PhaseTable>
     if (!known || known->shells.size() < shells) {
         auto made = known ? std::make_shared<Stf>(*known) : std::make_shared<Stf>(table ? Stf(table) : Stf(g));
         found.computed = shells - made->shells.size();
-        extend_stf(*made, shells, options_, progress);
+        found.seconds = extend_stf(*made, shells, options_, progress);
         known = made;
         if (!folder_.empty()) {
             try {

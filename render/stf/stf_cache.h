@@ -16,7 +16,8 @@ public:
 
     struct Found {
         std::shared_ptr<const Stf> stf;
-        size_t computed = 0; ///< shells that were made now
+        size_t computed = 0; ///< shells that were made now, the last of them
+        std::vector<double> seconds; ///< that each of those took
         std::string remark;  ///< why stored ones were not used, or could not be stored; may be empty
     };
     /// At least `shells` shells of g, or of a table if there is one. Throws Cancelled.
