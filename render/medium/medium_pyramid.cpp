@@ -81,13 +81,16 @@ MediumPyramid::MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, 
         }
         levels_.push_back(std::move(above));
     }
-    const Level& small = levels_[std::min<size_t>(1, levels_.size() - 1)];
-    for (Cell cell : small.cells) {
+    // No mean is above the largest sigma_t and albedo of all cubes. The rest is asked of somewhat larger ones: single grains are no medium.
+    for (const Cell& cell : levels_[0].cells) {
+        if (!(cell.sigma_t > 0)) continue;
+        extremes_.sigma_t_high = std::max(extremes_.sigma_t_high, double{cell.sigma_t});
+        extremes_.albedo_high = std::max(extremes_.albedo_high, 1 - double{cell.loss_low});
+    }
+    for (Cell cell : levels_[std::min<size_t>(1, levels_.size() - 1)].cells) {
         if (!(cell.sigma_t > 0)) continue;
         set_own_range(cell);
-        extremes_.sigma_t_high = std::max(extremes_.sigma_t_high, double{cell.sigma_t});
         extremes_.albedo_low = std::min(extremes_.albedo_low, 1 - double{cell.loss_high});
-        extremes_.albedo_high = std::max(extremes_.albedo_high, 1 - double{cell.loss_low});
         extremes_.g_low = std::min(extremes_.g_low, 1 - double{cell.back_high});
         extremes_.g_high = std::max(extremes_.g_high, 1 - double{cell.back_low});
     }
@@ -143,11 +146,11 @@ bool MediumPyramid::is_same(const V3d& centre, double radius, MediumMean& mean) 
     const double brightest = std::max({scattered[0], scattered[1], scattered[2]});
     if (!(sigma > 0 && brightest > 0)) return false;
     mean.sigma_t = sigma;
-    for (unsigned c = 0; c < 3; ++c) mean.albedo[c] = static_cast<float>(std::min(1.0, scattered[c] / sigma));
+    for (unsigned c = 0; c < 3; ++c) mean.albedo[c] = static_cast<float>(std::min(extremes_.albedo_high, scattered[c] / sigma));
     mean.g = forward / brightest;
     const double loss = 1 - brightest / sigma, back = 1 - mean.g;
-    constexpr double rounded = 1e-6; // of sums in float
-    const auto close = [&](double low, double high, double value) { return low >= value * (1 - tolerance_) - rounded * value - rounded * 1e-3 && high <= value * (1 + tolerance_) + rounded * value + rounded * 1e-3; };
+    constexpr double rounded = 1e-6; // what sums in float are off by; all three have no unit
+    const auto close = [&](double low, double high, double value) { return low >= value * (1 - tolerance_) - rounded && high <= value * (1 + tolerance_) + rounded; };
     return close(range.sigma_low / sigma, range.sigma_high / sigma, 1) && close(range.loss_low, range.loss_high, loss) && close(range.back_low, range.back_high, back);
 }
 

@@ -25,7 +25,7 @@ public:
     /// Whether the medium is the same in a ball, within the tolerance; mean: over the ball, about.
     bool is_same(const V3d& centre, double radius, MediumMean& mean) const;
 
-    /// Between which its means over small cubes lie; of the albedo that of the brightest channel.
+    /// Between which its means over small cubes lie; of the albedo that of the brightest channel. No mean is above the highest sigma_t and albedo.
     struct Extremes {
         double sigma_t_high = 0, albedo_low = 1, albedo_high = 0, g_low = 1, g_high = -1;
     };

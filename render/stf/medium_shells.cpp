@@ -83,22 +83,18 @@ bool MediumShells::fit(const V3d& place, double clear, double u, FittingShell& f
 
 bool MediumShells::fit_in_grid(const V3d& place, double clear, double u, FittingShell& fitting) const
 {
-    const double most = grid_->extremes().sigma_t_high * clear;
     const bool diffuses = form_ == StfForm::diffusion;
     const size_t count = diffuses ? 1 << 10 : samplers_[0].size();
-    int number = Stf::largest(most, count);
-    if (number < 0) return false;
-    // From the largest ball on, each half as large as the one before.
-    double length = clear;
-    if (number + 1 == static_cast<int>(count)) length = std::min(clear, 2 * Stf::radius(count - 1) / grid_->extremes().sigma_t_high);
+    const double densest = grid_->extremes().sigma_t_high;
+    // Balls from the largest on, each half as large as the one before.
+    double length = std::min(clear, 2 * Stf::radius(count - 1) / densest);
     MediumMean mean;
-    for (;; length /= 2) {
-        if (!(length * grid_->extremes().sigma_t_high >= Stf::radius(0))) return false;
-        if (!grid_->is_same(place, length, mean)) continue;
-        number = Stf::largest(length * mean.sigma_t, count);
-        if (number < 0) return false;
-        break;
+    while (!grid_->is_same(place, length, mean)) {
+        length /= 2;
+        if (!(length * densest >= Stf::radius(0))) return false;
     }
+    const int number = Stf::largest(length * mean.sigma_t, count);
+    if (number < 0) return false;
     const double sigma_t = mean.sigma_t, g = mean.g, radius = length * sigma_t;
     fitting.sigma_t = sigma_t;
     fitting.albedo = mean.albedo;

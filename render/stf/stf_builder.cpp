@@ -75,6 +75,45 @@ void thin(const std::vector<Record>& records, const std::vector<double>& mass, u
     for (float& w : weights) w = static_cast<float>(w / weight_sum);
 }
 
+/// Tilts the weights of exits so that two means are exact, which the noise of walks puts off and larger shells would add up.
+///
+/// Along any walk (1 - g) x + w (in mean free paths, w the direction) keeps its mean, and so does |x|^2 + 2 x.w / (1 - g) - 2 n / (1 - g) after n scatterings. So
+/// over all light from a centre (1 - g) R E[cos theta_t] + E[cos(w, axis)] = 1 and E[n] = (1 - g) R^2 / 2 + R E[cos(w, normal)].
+void calibrate(double g, StfShell& shell)
+{
+    const double radius = shell.radius, straight = std::exp(-radius), scattered = -std::expm1(-radius);
+    const double drift = (1 - straight * ((1 - g) * radius + 1)) / scattered, growth = (0.5 * (1 - g) * radius * radius + straight * radius) / scattered;
+    double cosine = 0, events = 0, out = 0;
+    const size_t n = shell.exits.size();
+    std::vector<double> along(n), excess(n); // of the two sums that are known
+    for (size_t i = 0; i < n; ++i) {
+        const ShellExit& exit = shell.exits[i];
+        const ShellPlace there = place_of(exit);
+        const double w = shell.exit_weights[i], mu = there.place.dot(there.direction);
+        along[i] = (1 - g) * radius * exit.cos_t + there.direction.z;
+        excess[i] = exit.events - radius * mu;
+        cosine += w * exit.cos_t;
+        events += w * exit.events;
+        out += w * mu;
+    }
+    // Two linear equations for the tilt by cos theta_t and by events.
+    double a00 = 0, a01 = 0, a10 = 0, a11 = 0, b0 = drift, b1 = growth;
+    for (size_t i = 0; i < n; ++i) {
+        const double w = shell.exit_weights[i], u = shell.exits[i].cos_t - cosine, v = shell.exits[i].events / events - 1;
+        a00 += w * u * along[i];
+        a01 += w * v * along[i];
+        a10 += w * u * excess[i];
+        a11 += w * v * excess[i];
+        b0 -= w * along[i];
+        b1 -= w * excess[i];
+    }
+    const double determinant = a00 * a11 - a01 * a10, by_cosine = (b0 * a11 - b1 * a01) / determinant, by_events = (a00 * b1 - a10 * b0) / determinant;
+    for (size_t i = 0; i < n; ++i) {
+        const double tilt = 1 + by_cosine * (shell.exits[i].cos_t - cosine) + by_events * (shell.exits[i].events / events - 1);
+        shell.exit_weights[i] = static_cast<float>(shell.exit_weights[i] * std::max(0.0, tilt));
+    }
+}
+
 StfShell make_shell(const PhaseFunction& phase, size_t number, std::span<const ShellSampler> smaller, const StfOptions& options, const Progress& progress)
 {
     const std::vector<ShellWalk> walks = walk_all(phase, number, smaller, options, progress);
@@ -91,6 +130,7 @@ StfShell make_shell(const PhaseFunction& phase, size_t number, std::span<const S
     }
     shell.event_sum /= static_cast<double>(walks.size());
     thin(exits, std::vector<double>(walks.size(), 1.0), options.records, [](const ShellExit& e) { return e.cos_t; }, [](const ShellExit& e) { return e.away; }, shell.exits, shell.exit_weights);
+    calibrate(phase.mean_cosine(), shell);
     thin(events, mass, options.records, [](const ShellEvent& e) { return e.along; }, [](const ShellEvent& e) { return e.direction.z; }, shell.events, shell.event_weights);
     return shell;
 }

@@ -16,7 +16,7 @@ static_assert(std::endian::native == std::endian::little, "the file's numbers ar
 static_assert(sizeof(ShellExit) == 24 && sizeof(ShellEvent) == 24);
 
 constexpr std::array<char, 8> magic{'S', 'C', 'R', 'E', 'E', 'S', 'T', 'F'};
-constexpr uint32_t version = 3; // also of what the numbers mean: count up when any of that changes
+constexpr uint32_t version = 4; // also of what the numbers mean: count up when any of that changes
 
 struct FileHead {
     std::array<char, 8> magic{};

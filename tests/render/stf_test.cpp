@@ -179,6 +179,39 @@ TEST(Stf, WhatIsLeftAtAnAlbedoIsAsWalksHaveIt)
     }
 }
 
+TEST(Stf, KeepsWhatEveryWalkKeepsInTheMean)
+{
+    // See the builder: two identities, here of simulated walks, and of the records to rounding.
+    for (const double g : {0.0, 0.8, -0.5}) {
+        const auto stf = shells_of(g, 9);
+        for (const size_t k : {0u, 4u, 8u}) {
+            const double radius = Stf::radius(k);
+            Estimate drift, growth;
+            for (uint32_t i = 0; i < 40'000; ++i) {
+                Sampler sampler(21, i, static_cast<uint32_t>(k), 0);
+                const ShellExit exit = walk_in_shell(stf->phase, radius, {}, sampler).exit;
+                const ShellPlace there = place_of(exit);
+                drift.add((1 - g) * radius * exit.cos_t + there.direction.z);
+                growth.add(exit.events - radius * there.place.dot(there.direction));
+            }
+            EXPECT_LT(std::abs(drift.z(1)), 4) << g << ", " << radius;
+            EXPECT_LT(std::abs(growth.z(0.5 * (1 - g) * radius * radius)), 4) << g << ", " << radius;
+        }
+        for (const StfShell& shell : stf->shells) {
+            const double straight = std::exp(-shell.radius);
+            double drift = straight * ((1 - g) * shell.radius + 1), growth = -straight * shell.radius;
+            for (size_t i = 0; i < shell.exits.size(); ++i) {
+                const ShellPlace there = place_of(shell.exits[i]);
+                const double w = (1 - straight) * shell.exit_weights[i];
+                drift += w * ((1 - g) * shell.radius * shell.exits[i].cos_t + there.direction.z);
+                growth += w * (shell.exits[i].events - shell.radius * there.place.dot(there.direction));
+            }
+            EXPECT_NEAR(drift, 1, 1e-4) << g << ", " << shell.radius;
+            EXPECT_NEAR(growth / (0.5 * (1 - g) * shell.radius * shell.radius), 1, 1e-4) << g << ", " << shell.radius;
+        }
+    }
+}
+
 TEST(Stf, LargeShellsAreAsDiffusionHasThem)
 {
     // Isotropic scattering, an extrapolated boundary 0.7104 beyond the shell (Milne's problem): the mean number of scatterings of light from a ball's centre is
