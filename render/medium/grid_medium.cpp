@@ -342,8 +342,8 @@ uint64_t GridMedium::bytes() const
 
 double GridMedium::voxel() const
 {
-    double edge = 0;
-    for (int k = 0; k < 3; ++k) edge = std::max(edge, data_->density.to_render.vector(V3d(k == 0, k == 1, k == 2)).length());
+    double edge = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) edge = std::min(edge, data_->density.to_render.vector(V3d(k == 0, k == 1, k == 2)).length());
     return edge;
 }
 

@@ -42,7 +42,7 @@ public:
     bool is_achromatic() const;
     double largest_sigma_t() const; ///< of any channel
     uint64_t bytes() const;
-    double voxel() const; ///< longest edge of a voxel of the density
+    double voxel() const; ///< shortest edge of a voxel of the density
     /// Anywhere; sigma_t per channel.
     C3f sigma_t(const V3d& p) const;
     C3f albedo(const V3d& p) const;

@@ -33,7 +33,8 @@ MediumPyramid::MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, 
         if (progress.cancelled()) return;
         for (int64_t y = 0; y < first.size[1]; ++y) {
             for (int64_t z = 0; z < first.size[2]; ++z) {
-                const V3d place = origin_ + width_ * V3d(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5, static_cast<double>(z) + 0.5);
+                V3d place = origin_ + width_ * V3d(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5, static_cast<double>(z) + 0.5);
+                for (int k = 0; k < 3; ++k) place[k] = std::min(place[k], box.max[k]); // the last cube reaches beyond the box
                 Cell& cell = first.cells[static_cast<size_t>((x * first.size[1] + y) * first.size[2] + z)];
                 cell.sigma_t = medium.sigma_t(place).x;
                 const C3f albedo = medium.albedo(place);
