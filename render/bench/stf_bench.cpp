@@ -66,21 +66,25 @@ public:
         world.clearance = make_clearance(world, Progress());
         fmt::print("{} triangles; clearances made in {:.2f} s, {:.1f} MB, largest {:.3f} of the height\n", mesh.triangles.size(), watch.seconds(),
                    1e-6 * static_cast<double>(world.clearance->bytes()), world.clearance->largest());
-        tracer = std::make_unique<Tracer>(std::make_shared<EmbreeDevice>(), world);
+        const auto device = std::make_shared<EmbreeDevice>();
+        tracer = std::make_unique<Tracer>(device, world);
+        const std::shared_ptr<const ClearanceField> known = std::exchange(world.clearance, nullptr);
+        plain = std::make_unique<Tracer>(device, world);
+        world.clearance = known;
         for (uint32_t p = 0; p < columns_ * rows_; ++p) {
             if (Crossing crossing; tracer->regions()->next(eye(p, 0.5, 0.5), forwards, 0, 4, nullptr, crossing)) pixels.push_back(p);
         }
     }
 
-    PathResult trace(uint32_t pixel, uint64_t seed, uint32_t sample) const
+    PathResult trace(const Tracer& by, uint32_t pixel, uint64_t seed, uint32_t sample) const
     {
         Sampler sampler(seed, pixel, 0, sample);
         const double u = sampler.next(), v = sampler.next();
-        return trace_path(world, *tracer, eye(pixel, u, v), forwards, sampler);
+        return trace_path(world, by, eye(pixel, u, v), forwards, sampler);
     }
 
     World world;
-    std::unique_ptr<Tracer> tracer;
+    std::unique_ptr<Tracer> tracer, plain; ///< plain: without clearances, so that every step and every light is a ray
     std::vector<uint32_t> pixels; ///< whose middle shows the statue
 
 private:
@@ -95,6 +99,8 @@ private:
     uint32_t columns_, rows_;
 };
 
+constexpr const char* plain_name = "VPT plain";
+
 /// What the paths of one method brought: pixels of two halves that have nothing in common, and what they cost.
 class Picture {
 public:
@@ -107,12 +113,13 @@ public:
     void add_paths(Scene& scene, double seconds)
     {
         scene.world.regions[0].shells = shells_;
+        const Tracer& tracer = name_ == plain_name ? *scene.plain : *scene.tracer;
         const double start = busy_seconds();
         const uint64_t count = scene.pixels.size();
         do {
             // Pixels in turns, but neighbours not one after another.
             const uint64_t pass = paths_ / count, pixel = paths_ % count * 7919 % count;
-            const PathResult result = scene.trace(scene.pixels[pixel], seed_, static_cast<uint32_t>(pass));
+            const PathResult result = scene.trace(tracer, scene.pixels[pixel], seed_, static_cast<uint32_t>(pass));
             halves_[pass & 1][pixel].add(double{result.radiance.x});
             ++paths_;
             events_ += result.events;
@@ -209,6 +216,7 @@ void run_row(Scene& scene, const std::vector<StfForm>& forms, StfCache& cache, d
     constexpr int turns = 5;
     std::vector<Picture> pictures;
     pictures.emplace_back("VPT", nullptr, 1, scene.pixels.size());
+    pictures.emplace_back(plain_name, nullptr, 200, scene.pixels.size());
     for (const StfForm form : forms) {
         std::vector<PartReport> parts;
         std::vector<std::string> remarks;

@@ -1,6 +1,7 @@
 // Volumetric path tracing: a path among media, and what it does where one scatters it.
 
 #include "render/integrators/path.h"
+#include "render/stf/medium_shells.h"
 #include "render/warp.h"
 
 #include <bit>
@@ -29,6 +30,22 @@ void Path::enter_world()
         spectral_.hero = std::min(static_cast<uint32_t>(3 * sampler_.next()), 2u);
         break;
     }
+}
+
+double Path::clear()
+{
+    if (clear_ >= 0) return clear_;
+    // Within a mean free path a ray costs as much as a clearance, and no shell fits.
+    double least = 0;
+    if (std::has_single_bit(regions_)) {
+        const MediumRegion& region = world_.regions[static_cast<size_t>(std::countr_zero(regions_))];
+        if (region.shells) least = region.shells->least_length();
+        else if (region.homogeneous) {
+            const V3d& sigma_t = region.homogeneous->sigma_t();
+            least = 1 / std::max({sigma_t.x, sigma_t.y, sigma_t.z});
+        }
+    }
+    return clear_ = media_->clearance(o_, least);
 }
 
 MediumEvent Path::medium_event(double t0, double t1)

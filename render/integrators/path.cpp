@@ -32,17 +32,33 @@ PathResult Path::run(V3d o, V3d d, std::vector<PathVertex>* trail)
     return result_;
 }
 
-bool Path::handle(const Hit& hit)
+Hit Path::as_proxy(const Hit& hit) const
+{
+    const GrainSphere sphere = world_.sphere(hit.place.index);
+    const V3d to = sphere.centre - o_;
+    const double along = to.dot(d_);
+    Hit proxy = hit;
+    proxy.place.triangle = no_triangle;
+    proxy.t = along - safe_sqrt(sphere.radius * sphere.radius - (to - along * d_).length2());
+    proxy.point = o_ + proxy.t * d_;
+    proxy.normal = (proxy.point - sphere.centre).normalized();
+    proxy.t = std::max(0.0, proxy.t); // a camera may stand in the sphere
+    return proxy;
+}
+
+bool Path::handle(Hit hit)
 {
     if (hit.place.kind == HitKind::none) return handle_miss();
-    const bool is_proxy = hit.place.kind == HitKind::grain && hit.place.triangle == no_triangle && !is_inside() && detail() == GrainDetail::proxy;
+    bool is_proxy = hit.place.kind == HitKind::grain && hit.place.triangle == no_triangle && !is_inside() && detail() == GrainDetail::proxy;
     if (is_proxy && misses_proxy(hit)) {
         beyond_ = passed_ = hit.t; // on along the same ray
         return true;
     }
     if (depth_ == 0 && !is_inside() && hit.place.kind == HitKind::grain && explicit_left_ > 0 && !is_resolved(hit)) {
-        explicit_left_ = 0; // the same ray again, among proxies
-        return true;
+        // Seen as it is it has been met, and so it is as a proxy: that of a ray that does not miss it.
+        explicit_left_ = 0;
+        is_proxy = true;
+        hit = as_proxy(hit);
     }
     if (media_ && is_inside() && hit.place.kind != HitKind::none) regions_ = media_->after(regions_, o_, hit.point);
     attenuate(is_inside() ? &material_of(grain_) : surrounding_, hit.t);

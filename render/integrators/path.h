@@ -64,11 +64,8 @@ private:
     C3f passing(const V3d& o, const V3d& d, double distance, const Place& from, uint32_t light, RegionSet regions);
     C3f passing_media(V3d o, const V3d& d, double distance, Place from, uint32_t light, RegionSet regions);
 
-    double clear()
-    {
-        if (clear_ < 0) clear_ = media_->clearance(o_);
-        return clear_;
-    }
+    /// How far there is nothing but media around the ray's start; 0 where that is not worth knowing.
+    double clear();
 
     // Through shells (shell_vertex.cpp).
     /// Goes to the surface of the largest shell that fits around the path's place; whether the path goes on, or nothing where none fits.
@@ -78,6 +75,8 @@ private:
     bool leave_by_cosine(const V3d& place, const V3d& normal, float light_weight);
     /// Light that one of the shell's scatterings brings, for all of them; scale: of a mean free path.
     void add_event_light(const FittingShell& shell, double scale, double weight);
+    /// How far to the first scattering in a shell that does scatter.
+    double first_flight(const FittingShell& shell);
     /// Light that the first scattering in the shell brings.
     void add_single_light(const FittingShell& shell, double weight);
     /// Light that a phase function at a place scatters, of a way that came along `before`.
@@ -94,11 +93,13 @@ private:
     }
 
     // Each handles one vertex; false when the path ends there.
-    bool handle(const Hit& hit);
+    bool handle(Hit hit);
     bool handle_miss();
     bool handle_interface(const Hit& hit);
     bool handle_proxy(const Hit& hit);
     bool misses_proxy(const Hit& hit);
+    /// Where the ray enters the sphere of a grain that it has met as it is.
+    Hit as_proxy(const Hit& hit) const;
     bool handle_medium(const MediumEvent& event, Hit& met);
 
     void add(const C3f& light) { result_.radiance += weight_ * spectral_.weight() * light; }

@@ -11,7 +11,8 @@ namespace scree {
 std::optional<bool> Path::step_through_shell(Hit& met)
 {
     if (!std::has_single_bit(regions_) || passed_ > 0 || (surrounding_ && !is_black(surrounding_->absorption))) return std::nullopt;
-    const MediumShells* shells = world_.regions[static_cast<size_t>(std::countr_zero(regions_))].shells.get();
+    const MediumRegion& region = world_.regions[static_cast<size_t>(std::countr_zero(regions_))];
+    const MediumShells* shells = region.shells.get();
     if (!shells) return std::nullopt;
     const double clear = this->clear();
     FittingShell shell;
@@ -22,6 +23,7 @@ std::optional<bool> Path::step_through_shell(Hit& met)
     ++result_.shells;
     if (sampler_.next() < std::exp(-shell.radius)) {
         met.point = o_ + shell.length * d_;
+        moved_ += shell.length;
         start_ray(met.point, d_, {});
         last_.elsewhere = true;
         return true;
@@ -30,13 +32,16 @@ std::optional<bool> Path::step_through_shell(Hit& met)
     if (!result_.first.hit && depth_ == 1) {
         result_.first.hit = true;
         result_.first.albedo = shell.albedo;
-        result_.first.depth = moved_ + met.t;
+        result_.first.depth = moved_ + first_flight(shell);
     }
     if (shells->form() == StfForm::diffusion) return diffuse_through(shell, met);
     const bool is_full = shells->form() == StfForm::full;
     const bool samples_lights = world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only;
-    // What reaches the shell from outside of the clear ball at all: exp(-sigma_t (clear - length)).
-    const double reached = std::isfinite(clear) ? std::exp(-shell.sigma_t * (clear - shell.length)) : 0;
+    // What reaches the shell from outside of the clear ball at all. Elsewhere in it a grid may be thinner: then this is a guess, and must not be
+    // so low that the light it lets through counts for much.
+    constexpr double least_reached = 0.1;
+    const double guess = std::isfinite(clear) ? std::exp(-shell.sigma_t * (clear - shell.length)) : 0;
+    const double reached = region.homogeneous ? guess : std::max(least_reached, guess);
     const bool lit = samples_lights && (reached >= 1 || sampler_.next() < reached);
     const double scale = shell.length / shell.radius; // of a mean free path
     if (lit) {
@@ -105,10 +110,14 @@ void Path::add_event_light(const FittingShell& shell, double scale, double weigh
     add_phase_light(place, frame.to_world(V3d(event.direction)), shell.phase, shell.ratio(event.events) * static_cast<float>(weight));
 }
 
+double Path::first_flight(const FittingShell& shell)
+{
+    return -std::log1p(-sampler_.next() * -std::expm1(-shell.radius)) * shell.length / shell.radius;
+}
+
 void Path::add_single_light(const FittingShell& shell, double weight)
 {
-    const double flight = -std::log1p(-sampler_.next() * -std::expm1(-shell.radius)) * shell.length / shell.radius;
-    add_phase_light(o_ + flight * d_, d_, shell.phase, shell.albedo * static_cast<float>(weight));
+    add_phase_light(o_ + first_flight(shell) * d_, d_, shell.phase, shell.albedo * static_cast<float>(weight));
 }
 
 void Path::add_phase_light(const V3d& place, const V3d& before, const PhaseFunction& phase, const C3f& weight)

@@ -45,7 +45,7 @@ ClearanceField::ClearanceField(std::span<const TriangleView> meshes, const Imath
     progress.update("clearance", 1);
 }
 
-double ClearanceField::near(const V3d& place, int x, int y, int z) const
+double ClearanceField::near(const V3d& place, int x, int y, int z, bool is_rough, double least) const
 {
     std::atomic<uint64_t>& word = entries_[static_cast<size_t>(x) * step_[0] + static_cast<size_t>(y) * step_[1] + static_cast<size_t>(z)];
     uint64_t packed = word.load(std::memory_order_relaxed);
@@ -61,7 +61,7 @@ double ClearanceField::near(const V3d& place, int x, int y, int z) const
     constexpr uint64_t mask = (uint64_t{1} << entry_bits) - 1;
     TriangleTree::Entries from;
     for (size_t k = 0; k < from.size(); ++k) from[k] = static_cast<uint32_t>(packed >> (entry_bits * k) & mask);
-    return tree_.distance(place * scale_, from) / scale_;
+    return (is_rough ? tree_.rough_distance(place * scale_, from, least * scale_) : tree_.distance(place * scale_, from)) / scale_;
 }
 
 void ClearanceField::fill_squares(const Progress& progress)

@@ -3,6 +3,7 @@
 #include "ingest/support/progress.h"
 #include "render/medium/grid_medium.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -15,11 +16,12 @@ struct MediumMean {
     double g = 0;  ///< likewise
 };
 
-/// Means of an achromatic medium of grids over cubes of growing size, and how much they differ within: where it counts as the same for light that
-/// goes a long way. What varies over less than about a ball's radius averages out in it, and is not asked about.
+/// Means of an achromatic medium of grids over cubes of growing size, and how much it varies within: where it counts as the same for light that goes
+/// a long way. What varies over less than half a mean free path averages out, and does not count.
 class MediumPyramid {
 public:
-    /// box: where places will be asked about; render coordinates. tolerance: of sigma_t, 1 - albedo and 1 - g, as parts of their means. Throws Cancelled.
+    /// box: where places will be asked about; render coordinates. tolerance: of sigma_t, 1 - albedo and 1 - g, as parts of their means: what the means of
+    /// eight parts of a cube may be off by, and the standard deviation of all that is in it. Throws Cancelled.
     MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, double tolerance, const Progress& progress);
 
     /// Whether the medium is the same in a ball, within the tolerance; mean: over the ball, about.
@@ -33,17 +35,28 @@ public:
     uint64_t bytes() const;
 
 private:
-    /// Sums over a cube, and the range of the means of the eight cubes within.
+    /// Means over a cube, the range of those of the eight cubes within, and means of squares over all that does not average out.
     struct Cell {
         float sigma_t = 0, scattered[3] = {0, 0, 0}, forward = 0; ///< extinction; times albedo; brightest channel's times g
         float sigma_low = 0, sigma_high = 0, loss_low = 0, loss_high = 0, back_low = 0, back_high = 0; ///< of sigma_t, 1 - albedo, 1 - g
+        float sigma_square = 0, loss_square = 0, back_square = 0; ///< of sigma_t; of the others, times sigma_t and times what is scattered
+
+        float brightest() const { return std::max({scattered[0], scattered[1], scattered[2]}); }
+        float loss() const { return sigma_t > 0 ? 1 - brightest() / sigma_t : 0; }
+        float back() const { return brightest() > 0 ? 1 - forward / brightest() : 1; }
+        /// Adds what is in another; the ranges become those of both.
+        void add(const Cell& other, float weight);
+        /// As if it were the same all over.
+        void forget_range();
+        void forget_squares();
     };
     struct Level {
         std::array<int64_t, 3> size{};
         std::vector<Cell> cells;
         const Cell& at(int64_t x, int64_t y, int64_t z) const { return cells[static_cast<size_t>((x * size[1] + y) * size[2] + z)]; }
     };
-    static void set_own_range(Cell& cell);
+    static Cell cell_at(const GridMedium& medium, const V3d& place);
+    void add_level();
 
     V3d origin_{0};
     double width_ = 0; ///< of a cube of the first level

@@ -25,7 +25,7 @@ struct Entry {
 
 /// What may be lost, as a share of the distance, after so many blocks: near the middle of a ball all of its surface is as far, and looking for the
 /// very nearest would visit it all.
-constexpr double loss = 0x1p-12, large_loss = 0x1p-6;
+constexpr double large_loss = 0x1p-6;
 constexpr double float_loss = 0x1p-10; ///< of the square, by float in place of double
 constexpr int patience = 64;
 constexpr size_t most_entry_nodes = size_t{1} << 21;
@@ -110,9 +110,9 @@ TriangleTree::Entries TriangleTree::entries(const V3d& middle, double radius) co
     return found;
 }
 
-double TriangleTree::distance(const V3d& place, uint32_t& block, const Entries& from) const
+double TriangleTree::distance(const V3d& place, uint32_t& block, const Entries& from, double lost, double least) const
 {
-    double best = std::numeric_limits<double>::infinity(), lost = loss;
+    double best = std::numeric_limits<double>::infinity();
     if (blocks_.empty()) return best;
     if (block != none) best = nearer(blocks_[block], place, best);
     // Boxes' squares are off by less than 2^-20 of them (axes are off by 2^-25 in each component), and by what underflows.
@@ -130,10 +130,11 @@ double TriangleTree::distance(const V3d& place, uint32_t& block, const Entries& 
         if (next & leaf) {
             const uint32_t at = next & ~leaf;
             const double d = nearer(blocks_[at], place, best);
-            if (++visited == patience) lost = large_loss;
+            if (++visited == patience) lost = std::max(lost, large_loss);
             if (d < best) {
                 best = d;
                 block = at;
+                if (best <= least) return 0;
             }
             limit = limit_of(best);
         } else {

@@ -42,8 +42,14 @@ public:
         uint32_t block = none;
         return distance(place, block, from);
     }
+    /// Likewise but 2^-4 below, and 0 where it is not more than `least`.
+    double rough_distance(const V3d& place, const Entries& from, double least) const
+    {
+        uint32_t block = none;
+        return distance(place, block, from, rough_loss, least);
+    }
     /// block: where it is likely to be found, or none; becomes where it was found.
-    double distance(const V3d& place, uint32_t& block, const Entries& from = {0, 0, 0}) const;
+    double distance(const V3d& place, uint32_t& block, const Entries& from = {0, 0, 0}) const { return distance(place, block, from, loss, 0); }
     /// About the point of a block's triangles that is nearest to a place.
     V3d nearest_point(uint32_t block, const V3d& place) const;
     uint64_t bytes() const { return nodes_.size() * sizeof(Node) + blocks_.size() * sizeof(TriangleBlock); }
@@ -53,6 +59,8 @@ private:
     static constexpr size_t width = 8;
     static constexpr uint32_t leaf = uint32_t{1} << 31; ///< of a child's number: that of a block
     static constexpr size_t deepest = 60;
+    /// What may be lost, as a share of the distance.
+    static constexpr double loss = 0x1p-12, rough_loss = 0x1p-4;
 
     struct alignas(64) Node {
         using Lanes = std::array<float, width>;
@@ -71,6 +79,7 @@ private:
         explicit SplitPlace(const V3d& place);
     };
 
+    double distance(const V3d& place, uint32_t& block, const Entries& from, double lost, double least) const;
     /// Lower bounds of the squares of the distances from a place to a node's boxes.
     static std::array<float, width> squares(const Node& node, const SplitPlace& place);
     /// The distance to the block's triangles, or `best` where that is less.

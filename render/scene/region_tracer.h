@@ -56,8 +56,8 @@ public:
     }
     /// The regions that stand for grains.
     RegionSet instead_of_grains() const { return instead_of_grains_; }
-    /// No surface, light or region's surface is nearer to p than this.
-    double clearance(const V3d& p) const { return clearance_ ? clearance_->rough_clearance(p) : 0; }
+    /// No surface, light or region's surface is nearer to p than this; may be 0 where it is not above `least`.
+    double clearance(const V3d& p, double least) const { return clearance_ ? clearance_->rough_clearance(p, least) : 0; }
 
 private:
     struct Impl;

@@ -62,6 +62,11 @@ void MediumShells::choose(const Samplers& shells, size_t number, double radius, 
     fitting.shell = &shells[number];
 }
 
+double MediumShells::least_length() const
+{
+    return Stf::radius(0) / (grid_ ? grid_->extremes().sigma_t_high : everywhere_.sigma_t);
+}
+
 bool MediumShells::fit(const V3d& place, double clear, double u, FittingShell& fitting) const
 {
     if (grid_) return fit_in_grid(place, clear, u, fitting);

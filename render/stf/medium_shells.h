@@ -41,6 +41,8 @@ public:
     /// The largest shell around a place, where nothing but the medium is within `clear`. False: none fits. u: in (0, 1), where the choice is left to chance.
     bool fit(const V3d& place, double clear, double u, FittingShell& fitting) const;
 
+    /// Of the smallest ball that may hold a shell.
+    double least_length() const;
     StfForm form() const { return form_; }
     bool needs_chance() const { return grid_ || form_ == StfForm::interpolated; }
     uint64_t bytes() const { return bytes_; }
