@@ -100,7 +100,8 @@ ErrorClaim claimed_error(const Film& film)
 }
 
 AdaptivePlan::AdaptivePlan(TileStates& states, int columns, double error)
-    : states_(states), columns_(columns), rows_(static_cast<int>(states.tiles.size()) / columns), error_(error)
+    : states_(states), columns_(columns), rows_(static_cast<int>(states.tiles.size()) / columns), error_(error),
+      least_(least_samples(error))
 {
 }
 
@@ -109,9 +110,14 @@ bool AdaptivePlan::finished() const
     return std::ranges::none_of(states_.tiles, [](const TileState& tile) { return tile.counts.going(); });
 }
 
-uint32_t AdaptivePlan::next_level(uint32_t level)
+uint32_t AdaptivePlan::least_samples(double error) 
 {
-    return level < least_samples ? std::min(2 * level, least_samples) : level + level / 4;
+    return static_cast<uint32_t>(std::ceil(std::clamp(1 / error, 8.0, 1e6)));
+}
+
+uint32_t AdaptivePlan::next_level(uint32_t level, uint32_t least)
+{
+    return level < least ? std::min(2 * level, least) : level + level / 4;
 }
 
 V3d AdaptivePlan::mean(int half) const
@@ -164,13 +170,13 @@ void AdaptivePlan::decide()
         for (size_t i = 0; i < states_.tiles.size(); ++i) {
             uint32_t& other = states_.tiles[i].counts.counts[static_cast<size_t>(1 - half)];
             const double pixels = static_cast<double>(states_.tiles[i].estimates[0].pixels);
-            if (other == undecided && states_.level >= least_samples && states_.level >= samples[i]) other = states_.level;
+            if (other == undecided && states_.level >= least_ && states_.level >= samples[i]) other = states_.level;
             const double have = std::min(states_.level, other);
             made_ += pixels * have;
             needed_ += pixels * (other == undecided ? std::max(have, samples[i]) : have);
         }
     }
-    states_.level = next_level(states_.level);
+    states_.level = next_level(states_.level, least_);
 }
 
 double AdaptivePlan::progress() const { return needed_ > 0 ? made_ / needed_ : 0; }

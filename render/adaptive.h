@@ -34,15 +34,17 @@ public:
     /// Of all samples that are going to be needed, by the last decision, those that a level makes; 0..1.
     double progress() const;
 
-    /// The level after one: a quarter more, and no decision on less than eight samples.
-    static uint32_t next_level(uint32_t level);
-    static constexpr uint32_t least_samples = 8; ///< of a half
+    /// Of a half, without which nothing is decided: the smaller the error, the rarer the light that must not be missed.
+    static uint32_t least_samples(double error);
+    /// The level after one: a quarter more, once there are the least samples.
+    static uint32_t next_level(uint32_t level, uint32_t least);
 
 private:
     std::vector<double> wanted(int half) const;
     TileStates& states_;
     int columns_, rows_;
     double error_;
+    uint32_t least_;
     double needed_ = 0, made_ = 0;
 };
 
