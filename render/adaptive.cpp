@@ -25,11 +25,16 @@ void for_pixels(const Film& film, int tile, const F& f)
     }
 }
 
-/// The mean, made shorter so that its square has the expectation of the true one's.
-V3d unbiased_scale(const V3d& mean, double variance_of_mean)
+constexpr double noisy = 0.1; // relative variance of a pixel's mean at which the mean says nothing of its brightness
+
+/// The mean, made shorter so that its square has the expectation of the true one's; the noisier it is, the less is it taken
+/// to be brighter than its tile: of pixels that met a rare light once, the mean is all noise.
+V3d unbiased_scale(const V3d& mean, double variance_of_mean, const V3d& tile_mean)
 {
     const double square = mean.dot(mean);
-    return square > 0 ? safe_sqrt(1 - variance_of_mean / square) * mean : mean;
+    if (square <= 0) return mean;
+    const double corrected = std::max(0.0, square - variance_of_mean), trust = 1 - std::min(1.0, variance_of_mean / (noisy * square));
+    return std::sqrt((trust * corrected + (1 - trust) * std::min(corrected, tile_mean.dot(tile_mean))) / square) * mean;
 }
 
 /// What a half has seen, mean over the pixels and standard error of that.
@@ -38,7 +43,7 @@ void estimate_variance(const Film& film, int tile, int half, const RelativeError
     TileEstimate& estimate = state.estimates[static_cast<size_t>(half)];
     double sum = 0, squares = 0;
     for_pixels(film, tile, [&](size_t i) {
-        const double q = relative_variance(film.halves()[i].judge(half, state.counts), measure);
+        const double q = relative_variance(film.halves()[i].judge(half, state.counts), estimate.sum / static_cast<double>(estimate.pixels), measure);
         sum += q;
         squares += q * q;
     });
@@ -49,11 +54,11 @@ void estimate_variance(const Film& film, int tile, int half, const RelativeError
 
 } // namespace
 
-double relative_variance(const HalfSums& half, const RelativeError& measure)
+double relative_variance(const HalfSums& half, const V3d& tile_mean, const RelativeError& measure)
 {
     if (half.samples < 2) return 0;
     const double variance = trace(half.variance());
-    return measure.of(variance, unbiased_scale(half.mean(), variance / half.samples));
+    return measure.of(variance, unbiased_scale(half.mean(), variance / half.samples, tile_mean));
 }
 
 void estimate_tiles(Film& film, AdaptivePlan& plan)
@@ -87,10 +92,14 @@ ErrorClaim claimed_error(const Film& film)
     double total = 0;
     for (int tile = 0; tile < film.tile_columns() * film.tile_rows(); ++tile) {
         double sum = 0, pixels = 0;
+        V3d tile_mean(0);
+        for_pixels(film, tile, [&](size_t i) {
+            tile_mean += film.halves()[i].mean();
+            ++pixels;
+        });
         for_pixels(film, tile, [&](size_t i) {
             const double variance = trace(film.halves()[i].variance());
-            sum += measure.of(variance, unbiased_scale(film.halves()[i].mean(), variance));
-            ++pixels;
+            sum += measure.of(variance, unbiased_scale(film.halves()[i].mean(), variance, tile_mean / pixels));
         });
         total += sum;
         claim.worst_tile = std::max(claim.worst_tile, std::sqrt(sum / pixels));

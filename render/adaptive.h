@@ -49,8 +49,9 @@ private:
 };
 
 /// One pixel's per-sample relative variance, from sums of one half. The square of a noisy mean is too large by the mean's
-/// variance, which is taken off it; what is left of bias is of the order of the squared relative error itself.
-double relative_variance(const HalfSums& half, const RelativeError& measure);
+/// variance, which is taken off it, and where little else is left the pixel counts as no brighter than its tile; what is
+/// left of bias is of the order of the squared relative error itself.
+double relative_variance(const HalfSums& half, const V3d& tile_mean, const RelativeError& measure);
 
 /// Fills the estimates of the film's halves in the tiles that go on, for `decide`.
 void estimate_tiles(Film& film, AdaptivePlan& plan);

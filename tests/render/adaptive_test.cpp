@@ -83,9 +83,9 @@ TEST(Adaptive, IsUnbiasedWhereTheNaiveRuleIsNot)
 {
     const RareLight light{3e-4};
     constexpr double error = 1;
-    constexpr uint32_t most = 512;
+    constexpr uint32_t most = 1024;
     Estimate halves, naive, told;
-    for (uint64_t seed = 0; seed < 50; ++seed) {
+    for (uint64_t seed = 0; seed < 30; ++seed) {
         Film film(64, 64, 0, 0, 64, 64);
         draw_to_error(film, error, most, seed, light);
         film.take_halves();
