@@ -13,6 +13,8 @@ namespace scree {
 
 namespace {
 
+constexpr double voxels_deep = 6; ///< along the depth of a heap's core
+
 void check_depth(const char* place, double depth)
 {
     if (!(depth >= 0) || !std::isfinite(depth)) throw InputError(place, fmt::format("a depth of {}", depth), "a length, 0 or more");
@@ -58,9 +60,10 @@ std::optional<RegionSurface> core_of_spheres(std::span<const GrainStore::Sphere>
     const VoxelLattice lattice{V3d(0), options.voxel * radius};
     const RegionSurface dilated = dilated_spheres(spheres, closing, lattice, progress);
     if (dilated.triangles.empty()) return std::nullopt;
-    const double voxel = affordable_voxel(dilated, closing + depth, lattice.voxel);
+    // The deeper, the smoother: finer voxels would cost most of the time that a heap takes to set up, and tell no more.
+    const double wanted = std::max(lattice.voxel, (closing + depth) / voxels_deep), voxel = affordable_voxel(dilated, closing + depth, wanted);
     auto core = inset_on_lattice(dilated, closing + depth, {lattice.origin, voxel}, progress, "core of the heap");
-    if (core) core->coarsened = voxel > lattice.voxel;
+    if (core) core->coarsened = voxel > wanted;
     return core;
 }
 

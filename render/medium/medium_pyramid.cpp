@@ -168,7 +168,7 @@ bool MediumPyramid::is_same(const V3d& centre, double radius, MediumMean& mean) 
     constexpr double rounded = 1e-6; // what sums in float are off by; all have no unit
     const auto close = [&](double low, double high, double square, double value) {
         const double most = value * tolerance_ + rounded;
-        return low >= value - most && high <= value + most && square - value * value <= most * most + rounded * value * value;
+        return low >= value - most && high <= value + most && square - value * value <= 0.25 * most * most + rounded * value * value;
     };
     return close(ball.sigma_low / sigma, ball.sigma_high / sigma, ball.sigma_square / (sigma * sigma), 1)
            && close(ball.loss_low, ball.loss_high, ball.loss_square / sigma, loss) && close(ball.back_low, ball.back_high, ball.back_square / brightest, back);

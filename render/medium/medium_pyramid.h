@@ -21,7 +21,7 @@ struct MediumMean {
 class MediumPyramid {
 public:
     /// box: where places will be asked about; render coordinates. tolerance: of sigma_t, 1 - albedo and 1 - g, as parts of their means: what the means of
-    /// eight parts of a cube may be off by, and the standard deviation of all that is in it. Throws Cancelled.
+    /// eight parts of a cube may be off by, and twice the standard deviation of all that is in it. Throws Cancelled.
     MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, double tolerance, const Progress& progress);
 
     /// Whether the medium is the same in a ball, within the tolerance; mean: over the ball, about.

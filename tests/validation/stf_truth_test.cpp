@@ -132,54 +132,6 @@ TEST(ShellTracing, FindsLightByEveryStrategyAsVolumetricPathTracingDoes)
     for (size_t i = 1; i < found.size(); ++i) expect_equal(found[i], found[0], systematic, "strategy " + std::to_string(i % 3));
 }
 
-TEST(ShellTracing, GridsThatVaryAreAsWithoutShells)
-{
-    // A density and an asymmetry that grow by half over the cube, an albedo that falls.
-    openvdb::initialize();
-    const auto density = openvdb::FloatGrid::create(0), albedo = openvdb::FloatGrid::create(0), g = openvdb::FloatGrid::create(0);
-    constexpr int n = 40;
-    for (int x = -n - 2; x <= n + 2; ++x) {
-        for (int y = -n - 2; y <= n + 2; ++y) {
-            for (int z = -n - 2; z <= n + 2; ++z) {
-                const float part = 0.5f * (1 + static_cast<float>(x + y) / (2 * n));
-                density->tree().setValue({x, y, z}, 40 + 20 * part);
-                albedo->tree().setValue({x, y, z}, 0.999f - 0.01f * part);
-                g->tree().setValue({x, y, z}, 0.3f + 0.3f * part);
-            }
-        }
-    }
-    std::vector<Estimate> found;
-    uint64_t shells_met = 0;
-    for (const bool shells : {false, true}) {
-        World world;
-        MediumGrids grids{density, nullptr, nullptr, {}, "varying"};
-        grids.albedo = albedo;
-        grids.g = g;
-        for (int k = 0; k < 3; ++k) grids.to_scene[k][k] = 1.0 / n;
-        const TriangleMesh mesh = cube();
-        MediumRegion region{"varying", {}, mesh.triangles, nullptr, nullptr, nullptr, false};
-        for (const V3d& p : mesh.positions) region.positions.emplace_back(p);
-        region.grid = std::make_shared<GridMedium>(make_grid_medium(grids, {}, {}, {}));
-        world.regions.push_back(std::move(region));
-        Light sky;
-        sky.kind = LightKind::environment;
-        std::vector<C3f> texels(16 * 8, C3f(0.2f));
-        for (size_t i = 0; i < 32; ++i) texels[i] = C3f(2);
-        sky.map = std::make_shared<EnvironmentMap>(texels, 16, 8, V3d(0, 0, 1), C3f(1));
-        world.lights = LightSet({sky}, 2);
-        prepare_media(world, shells ? std::optional(StfForm::full) : std::nullopt);
-        const Tracer tracer(std::make_shared<EmbreeDevice>(), world);
-        found.push_back(from_all_around(world, tracer, shells ? 100'000 : 60'000, 4, {}, 7 + shells));
-        for (uint32_t p = 0; p < 1000; ++p) {
-            Sampler sampler(1, p, 0, 0);
-            shells_met += trace_path(world, tracer, V3d(0), V3d(1, 0, 0), sampler).shells;
-        }
-    }
-    EXPECT_GT(shells_met, 3000u); // more than three a path
-    expect_equal(found[1], found[0], 0.01, "shells within 10 % of the medium at their centres");
-    std::printf("varying grid: %.5f +- %.5f, through shells %.5f +- %.5f, %.1f shells a path\n", found[0].mean(), found[0].standard_error(), found[1].mean(), found[1].standard_error(), 1e-3 * static_cast<double>(shells_met));
-}
-
 TEST(ShellTracing, EndsWhateverTheDensity)
 {
     for (const double g : {-0.99, 0.0, 0.99}) {
