@@ -1,0 +1,55 @@
+#include "render/bench/bench_words.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace scree {
+
+namespace {
+
+double percent(double squared) { return 100 * std::sqrt(std::max(0.0, squared)); }
+
+} // namespace
+
+std::string root_words(double squared) { return fmt::format("{:.2g} %", percent(squared)); }
+
+std::string bias_words(const ErrorEstimate& estimate)
+{
+    const Measured& bias = estimate.squared_bias;
+    if (!bias.is_above_zero()) return fmt::format("not measured (< {:.2g} %)", percent(bias.high()));
+    return fmt::format("{:.2g} % ({:.2g} to {:.2g})", percent(bias.value), percent(bias.low()), percent(bias.high()));
+}
+
+std::string color_words(const Measured& color) { return fmt::format("{:+.2f} +- {:.2f} %", 100 * color.value, 100 * color.error); }
+
+std::string error_words(const ErrorEstimate& estimate)
+{
+    if (estimate.is_below_reference()) return fmt::format("< {} (reference)", root_words(estimate.reference_noise.value));
+    return root_words(estimate.squared_error.value);
+}
+
+std::string count_words(double number)
+{
+    if (number >= 1e9) return fmt::format("{:.3g} G", 1e-9 * number);
+    if (number >= 1e6) return fmt::format("{:.3g} M", 1e-6 * number);
+    if (number >= 1e4) return fmt::format("{:.3g} k", 1e-3 * number);
+    return fmt::format("{:.3g}", number);
+}
+
+std::string seconds_words(double seconds)
+{
+    return seconds >= 1000 ? fmt::format("{:.0f} s", seconds) : seconds >= 0.0095 ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.2g} ms", 1000 * seconds);
+}
+
+std::string bytes_words(uint64_t bytes) { return fmt::format("{:.1f} MB", 1e-6 * static_cast<double>(bytes)); }
+
+double rate(uint64_t number, const MethodResult& method) { return method.time.processor > 0 ? static_cast<double>(number) / method.time.processor : 0; }
+
+std::string machine_words(const Machine& machine)
+{
+    const std::string threads = machine.threads == machine.cores ? "" : fmt::format(" ({} threads)", machine.threads);
+    return fmt::format("{}, {} core{}{}, {}", machine.processor, machine.cores, machine.cores == 1 ? "" : "s", threads, machine.date);
+}
+
+} // namespace scree

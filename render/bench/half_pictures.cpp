@@ -1,0 +1,58 @@
+#include "render/bench/half_pictures.h"
+
+namespace scree {
+
+namespace {
+
+/// One pixel of several films.
+struct Sums {
+    double samples = 0;
+    V3d sum{0}, squares{0};
+
+    void add(const Pixel& pixel)
+    {
+        samples += pixel.samples;
+        sum += pixel.sum;
+        squares += pixel.sum_of_squares;
+    }
+    V3d mean() const { return samples > 0 ? sum / samples : V3d(0); }
+    V3d variance() const
+    {
+        if (samples < 2) return V3d(0);
+        const V3d m = mean(), v = (squares / samples - m * m) / (samples - 1);
+        return {std::max(0.0, v.x), std::max(0.0, v.y), std::max(0.0, v.z)};
+    }
+};
+
+} // namespace
+
+HalfPictures make_halves(const std::vector<Film>& films)
+{
+    HalfPictures halves;
+    halves.width = films.front().width();
+    halves.height = films.front().height();
+    double drawn_a = 0, drawn = 0;
+    for (size_t p = 0; p < films.front().pixels().size(); ++p) {
+        Sums half[2], all;
+        for (size_t f = 0; f < films.size(); ++f) {
+            half[f % 2].add(films[f].pixels()[p]);
+            all.add(films[f].pixels()[p]);
+        }
+        halves.a.push_back(half[0].mean());
+        halves.b.push_back(half[1].mean());
+        halves.variance.push_back(all.variance());
+        drawn_a += half[0].samples;
+        drawn += all.samples;
+    }
+    if (drawn > 0) halves.share = drawn_a / drawn;
+    return halves;
+}
+
+V3d mean_radiance(const HalfPictures& picture)
+{
+    V3d sum(0);
+    for (size_t p = 0; p < picture.size(); ++p) sum += picture.whole(p);
+    return picture.size() > 0 ? sum / static_cast<double>(picture.size()) : sum;
+}
+
+} // namespace scree
