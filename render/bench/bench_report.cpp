@@ -2,6 +2,7 @@
 
 #include "render/bench/bench_words.h"
 #include "render/bench/flip.h"
+#include "render/bench/text_table.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,23 +14,6 @@ namespace scree {
 namespace {
 
 using nlohmann::json;
-
-/// Columns as wide as they need to be, the first to the left and the others to the right.
-std::string aligned(const std::vector<std::vector<std::string>>& rows)
-{
-    std::vector<size_t> widths;
-    for (const auto& row : rows) {
-        widths.resize(std::max(widths.size(), row.size()));
-        for (size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
-    }
-    std::string text;
-    for (const auto& row : rows) {
-        std::string line = "  ";
-        for (size_t c = 0; c < row.size(); ++c) line += c == 0 ? fmt::format("{:<{}}", row[c], widths[c]) : fmt::format("  {:>{}}", row[c], widths[c]);
-        text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-    }
-    return text;
-}
 
 json measured(const Measured& m) { return {{"value", m.value}, {"standard_error", m.error}, {"low", m.low()}, {"high", m.high()}}; }
 json work(const WorkTime& t) { return {{"wall_seconds", t.wall}, {"processor_seconds", t.processor}}; }
@@ -75,7 +59,7 @@ std::string table_of(const BenchResult& result)
                         fmt::format("{:+.2f} {:+.2f} {:+.2f} +- {:.2f}", 100 * e.color[0].value, 100 * e.color[1].value, 100 * e.color[2].value, 100 * std::max({e.color[0].error, e.color[1].error, e.color[2].error})),
                         fmt::format("{:.3f}", mean_flip(m.flip)), per_second(s.segments + s.shadow_rays), per_second(s.events), per_second(s.shells), bytes_words(m.memory)});
     }
-    text += aligned(rows);
+    text += text_table(rows);
     for (const MethodResult& m : result.methods) {
         if (m.statistics.non_finite > 0) text += fmt::format("  {}: {} samples were not finite and are left out\n", m.name, m.statistics.non_finite);
     }

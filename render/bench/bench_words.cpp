@@ -8,17 +8,21 @@ namespace scree {
 
 namespace {
 
-double percent(double squared) { return 100 * std::sqrt(std::max(0.0, squared)); }
+/// Two digits of a squared number's root, in per cent.
+std::string percent(double squared)
+{
+    const double value = 100 * std::sqrt(std::max(0.0, squared));
+    return value >= 99.5 ? fmt::format("{:.0f}", value) : fmt::format("{:.2g}", value);
+}
 
 } // namespace
 
-std::string root_words(double squared) { return fmt::format("{:.2g} %", percent(squared)); }
 
 std::string bias_words(const ErrorEstimate& estimate)
 {
     const Measured& bias = estimate.squared_bias;
-    if (!bias.is_above_zero()) return fmt::format("not measured (< {:.2g} %)", percent(bias.high()));
-    return fmt::format("{:.2g} % ({:.2g} to {:.2g})", percent(bias.value), percent(bias.low()), percent(bias.high()));
+    if (!bias.is_above_zero()) return fmt::format("not measured (< {} %)", percent(bias.high()));
+    return fmt::format("{} % ({} to {})", percent(bias.value), percent(bias.low()), percent(bias.high()));
 }
 
 std::string color_words(const Measured& color) { return fmt::format("{:+.2f} +- {:.2f} %", 100 * color.value, 100 * color.error); }
@@ -48,8 +52,8 @@ double rate(uint64_t number, const MethodResult& method) { return method.time.pr
 
 std::string machine_words(const Machine& machine)
 {
-    const std::string threads = machine.threads == machine.cores ? "" : fmt::format(" ({} threads)", machine.threads);
-    return fmt::format("{}, {} core{}{}, {}", machine.processor, machine.cores, machine.cores == 1 ? "" : "s", threads, machine.date);
+    const auto counted = [](int n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
+    return fmt::format("{}, {} on {}, {}", machine.processor, counted(machine.threads, "thread"), counted(machine.cores, "core"), machine.date);
 }
 
 } // namespace scree

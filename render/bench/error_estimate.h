@@ -14,8 +14,8 @@ struct Measured {
     /// The interval that holds the truth 95 times in 100.
     double low() const { return value - 1.96 * error; }
     double high() const { return value + 1.96 * error; }
-    /// Whether it is above 0 by more than chance brings.
-    bool is_above_zero() const { return low() > 0; }
+    /// Whether it is above 0 by more than chance brings: three standard errors, as many of them are looked at.
+    bool is_above_zero() const { return value > 3 * error; }
 };
 
 /// What parts a picture from a reference. Squared errors are relative, means over pixels (render/film/relative_error.h).
