@@ -18,6 +18,8 @@ std::string percent(double squared)
 } // namespace
 
 
+std::string root_words(double squared) { return percent(squared) + " %"; }
+
 std::string bias_words(const ErrorEstimate& estimate)
 {
     const Measured& bias = estimate.squared_bias;
