@@ -35,6 +35,7 @@ json method_json(const MethodResult& m, const BenchResult& result)
             {"medium_events", s.events}, {"shells", s.shells}, {"longest_path", s.longest}, {"non_finite", s.non_finite}, {"leaks", s.leaks},
             {"segments_per_processor_second", rate(s.segments, m)}, {"events_per_processor_second", rate(s.events, m)}, {"shells_per_processor_second", rate(s.shells, m)},
             {"noise", measured(e.noise)}, {"squared_bias", measured(e.squared_bias)}, {"bias_measured", e.squared_bias.is_above_zero()},
+            {"squared_bias_of_squares", measured(e.smooth_bias)}, {"bias_of_squares_measured", e.smooth_bias.is_above_zero()},
             {"mrse", measured(e.squared_error)}, {"below_reference_noise", e.is_below_reference() && result.reference.picture.has_noise()},
             {"time_to_unit_variance", m.time_to_unit_variance()}, {"color_error", colors}, {"flip", mean_flip(m.flip)}, {"convergence", points}, {"warnings", m.warnings}};
 }
@@ -49,13 +50,13 @@ std::string table_of(const BenchResult& result)
         const std::string noise = r.picture.has_noise() ? root_words(result.methods.front().estimate.reference_noise.value) : "not known";
         text += fmt::format("  reference: {}, {} samples a pixel, {} of processors; its noise {}, FLIP of its halves {:.3f}\n", r.name, r.samples, seconds_words(r.processor_seconds), noise, result.reference_flip);
     }
-    std::vector<std::vector<std::string>> rows{{"method", "spp", "set up", "processors", "noise", "unit var.", "error", "bias (95 %)", "mean colour R G B, %", "FLIP", "rays/s", "events/s", "shells/s", "memory"}};
+    std::vector<std::vector<std::string>> rows{{"method", "spp", "set up", "processors", "noise", "unit var.", "error", "bias (95 %)", "bias of 8x8", "mean colour R G B, %", "FLIP", "rays/s", "events/s", "shells/s", "memory"}};
     for (const MethodResult& m : result.methods) {
         const RenderStatistics& s = m.statistics;
         const ErrorEstimate& e = m.estimate;
         const auto per_second = [&](uint64_t n) { return n > 0 ? count_words(rate(n, m)) : "-"; };
         rows.push_back({m.name, std::to_string(m.samples), seconds_words(m.setup.read + m.setup.precompute + m.setup.build), seconds_words(m.time.processor),
-                        root_words(e.noise.value), seconds_words(m.time_to_unit_variance()), error_words(e), bias_words(e),
+                        root_words(e.noise.value), seconds_words(m.time_to_unit_variance()), error_words(e), bias_words(e.squared_bias), bias_words(e.smooth_bias),
                         fmt::format("{:+.2f} {:+.2f} {:+.2f} +- {:.2f}", 100 * e.color[0].value, 100 * e.color[1].value, 100 * e.color[2].value, 100 * std::max({e.color[0].error, e.color[1].error, e.color[2].error})),
                         fmt::format("{:.3f}", mean_flip(m.flip)), per_second(s.segments + s.shadow_rays), per_second(s.events), per_second(s.shells), bytes_words(m.memory)});
     }

@@ -17,14 +17,12 @@ std::string percent(double squared)
 
 } // namespace
 
-
 std::string root_words(double squared) { return percent(squared) + " %"; }
 
-std::string bias_words(const ErrorEstimate& estimate)
+std::string bias_words(const Measured& squared_bias)
 {
-    const Measured& bias = estimate.squared_bias;
-    if (!bias.is_above_zero()) return fmt::format("not measured (< {} %)", percent(bias.high()));
-    return fmt::format("{} % ({} to {})", percent(bias.value), percent(bias.low()), percent(bias.high()));
+    if (!squared_bias.is_above_zero()) return fmt::format("not measured (< {} %)", percent(squared_bias.high()));
+    return fmt::format("{} % ({} to {})", percent(squared_bias.value), percent(squared_bias.low()), percent(squared_bias.high()));
 }
 
 std::string color_words(const Measured& color) { return fmt::format("{:+.2f} +- {:.2f} %", 100 * color.value, 100 * color.error); }

@@ -9,7 +9,7 @@ namespace scree {
 // What a result is called, the same in the terminal and on the page.
 
 /// "0.83 % (0.71 to 0.94)", or "not measured (< 0.4 %)" where it is no more than chance brings.
-std::string bias_words(const ErrorEstimate& estimate);
+std::string bias_words(const Measured& squared_bias);
 /// "+0.31 +- 0.12 %" of a channel.
 std::string color_words(const Measured& color);
 /// The relative error in per cent, and where the reference itself is no better: "< 1.3 % (the reference's noise)".

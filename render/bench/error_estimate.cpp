@@ -46,14 +46,26 @@ std::vector<V3d> surroundings(const HalfPictures& picture)
     return around;
 }
 
+/// As estimate_error says.
+Measured squared_bias(const HalfPictures& picture, const HalfPictures& reference)
+{
+    const RelativeError relative(mean_radiance(reference));
+    const std::vector<V3d> around = surroundings(reference);
+    Mean bias;
+    for (size_t p = 0; p < picture.size(); ++p) {
+        const V3d r = reference.whole(p);
+        bias.add(relative.of(sum((picture.a[p] - r) * (picture.b[p] - r) - reference.noise(p)), around[p]));
+    }
+    return bias.result();
+}
+
 } // namespace
 
 ErrorEstimate estimate_error(const HalfPictures& picture, const HalfPictures& reference)
 {
     const V3d truth = mean_radiance(reference);
     const RelativeError relative(truth);
-    const std::vector<V3d> around = surroundings(reference);
-    Mean noise, bias, reference_noise, error;
+    Mean noise, reference_noise, error;
     V3d difference(0), variance(0);
     for (size_t p = 0; p < picture.size(); ++p) {
         const V3d r = reference.whole(p), of_reference = reference.noise(p), of_picture = picture.noise(p);
@@ -61,11 +73,11 @@ ErrorEstimate estimate_error(const HalfPictures& picture, const HalfPictures& re
         noise.add(relative.of(sum(of_picture), r));
         reference_noise.add(relative.of(sum(of_reference), r));
         error.add(relative.of(sum(d * d - of_reference), r));
-        bias.add(relative.of(sum((picture.a[p] - r) * (picture.b[p] - r) - of_reference), around[p]));
         difference += d;
         variance += of_picture + of_reference;
     }
-    ErrorEstimate estimate{noise.result(), bias.result(), reference_noise.result(), error.result(), {}};
+    ErrorEstimate estimate{noise.result(), squared_bias(picture, reference), squared_bias(reduced(picture, smooth_side), reduced(reference, smooth_side)),
+                           reference_noise.result(), error.result(), {}};
     for (int c = 0; c < 3; ++c) {
         const double scale = truth[c] * static_cast<double>(picture.size());
         if (scale > 0) estimate.color[static_cast<size_t>(c)] = {difference[c] / scale, std::sqrt(variance[c]) / scale};

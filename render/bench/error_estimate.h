@@ -18,10 +18,13 @@ struct Measured {
     bool is_above_zero() const { return value > 3 * error; }
 };
 
+inline constexpr int smooth_side = 8; ///< pixels: of the squares of smooth_bias
+
 /// What parts a picture from a reference. Squared errors are relative, means over pixels (render/film/relative_error.h).
 struct ErrorEstimate {
     Measured noise;           ///< variance of the picture
     Measured squared_bias;    ///< may be below 0 by chance
+    Measured smooth_bias;     ///< the same of squares of pixels: smaller biases show, where they are alike over a square
     Measured reference_noise; ///< variance of the reference
     Measured squared_error;   ///< of the picture against the truth (MRSE): that against the reference, less the reference's noise
     std::array<Measured, 3> color; ///< of the picture's mean, per channel, relative to that of the reference

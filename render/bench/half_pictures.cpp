@@ -48,6 +48,34 @@ HalfPictures make_halves(const std::vector<Film>& films)
     return halves;
 }
 
+HalfPictures reduced(const HalfPictures& picture, int side)
+{
+    HalfPictures small;
+    small.width = (picture.width + side - 1) / side;
+    small.height = (picture.height + side - 1) / side;
+    small.share = picture.share;
+    small.halved = picture.halved;
+    const size_t squares = static_cast<size_t>(small.width) * static_cast<size_t>(small.height);
+    small.a.assign(squares, V3d(0));
+    small.b = small.a;
+    if (!picture.variance.empty()) small.variance = small.a;
+    std::vector<double> count(squares, 0.0);
+    for (size_t p = 0; p < picture.size(); ++p) {
+        const size_t x = p % static_cast<size_t>(picture.width), y = p / static_cast<size_t>(picture.width);
+        const size_t square = y / static_cast<size_t>(side) * static_cast<size_t>(small.width) + x / static_cast<size_t>(side);
+        small.a[square] += picture.a[p];
+        small.b[square] += picture.b[p];
+        if (!picture.variance.empty()) small.variance[square] += picture.variance[p];
+        ++count[square];
+    }
+    for (size_t s = 0; s < squares; ++s) {
+        small.a[s] /= count[s];
+        small.b[s] /= count[s];
+        if (!small.variance.empty()) small.variance[s] /= count[s] * count[s];
+    }
+    return small;
+}
+
 V3d mean_radiance(const HalfPictures& picture)
 {
     V3d sum(0);

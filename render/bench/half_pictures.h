@@ -30,6 +30,9 @@ struct HalfPictures {
 /// Films of independent seeds, of one size: those of even places are the one half, the others the other. At least two.
 HalfPictures make_halves(const std::vector<Film>& films);
 
+/// The means of squares of `side` pixels: where noise goes down by the side, what neighbours have in common stays.
+HalfPictures reduced(const HalfPictures& picture, int side);
+
 /// Mean over all pixels.
 V3d mean_radiance(const HalfPictures& picture);
 

@@ -16,7 +16,7 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-const Row head{"scene", "method", "does", "set up", "unit variance", "against ept", "noise", "error", "bias (95 %)", "colour", "FLIP", "rays + events/s"};
+const Row head{"scene", "method", "does", "set up", "unit variance", "against ept", "noise", "error", "bias (95 %)", "bias of 8x8", "colour", "FLIP", "rays + events/s"};
 
 /// How many times sooner than ept a method brings its variance to the same.
 std::string gain_words(const MethodResult& method, const BenchResult& result)
@@ -44,7 +44,7 @@ std::vector<Row> rows_of(const BenchResult& result)
     for (const MethodResult& m : result.methods) {
         const RenderStatistics& s = m.statistics;
         rows.push_back({result.title, m.name, m.plan, seconds_words(m.setup.read + m.setup.precompute + m.setup.build), seconds_words(m.time_to_unit_variance()), gain_words(m, result),
-                        root_words(m.estimate.noise.value), error_words(m.estimate), bias_words(m.estimate), worst_color_words(m.estimate), fmt::format("{:.3f}", mean_flip(m.flip)),
+                        root_words(m.estimate.noise.value), error_words(m.estimate), bias_words(m.estimate.squared_bias), bias_words(m.estimate.smooth_bias), worst_color_words(m.estimate), fmt::format("{:.3f}", mean_flip(m.flip)),
                         count_words(rate(s.segments + s.shadow_rays + s.events + s.shells, m))});
     }
     return rows;
@@ -60,7 +60,7 @@ std::vector<Row> all_rows(const std::vector<BenchResult>& results)
 }
 
 constexpr const char* about = "Unit variance: processor time until the relative variance is 1; against ept: how many times sooner than by tracing every grain. Errors are relative, root mean square. "
-                              "A bias no larger than chance brings is not measured, with the most that it may be. Colour: error of the picture's mean in the worst channel, with one standard error.";
+                              "A bias no larger than chance brings is not measured, with the most that it may be; of means of squares of 8x8 pixels smaller ones can be. Colour: error of the picture's mean in the worst channel, with one standard error.";
 
 std::string machine_line(const std::vector<BenchResult>& results, double seconds)
 {

@@ -162,9 +162,9 @@ TEST(BenchWords, SaysWhatIsNotMeasured)
 {
     ErrorEstimate estimate;
     estimate.squared_bias = {-1e-6, 1e-4};
-    EXPECT_THAT(bias_words(estimate), HasSubstr("not measured (< 1.4 %)"));
+    EXPECT_THAT(bias_words(estimate.squared_bias), HasSubstr("not measured (< 1.4 %)"));
     estimate.squared_bias = {4e-4, 1e-4};
-    EXPECT_THAT(bias_words(estimate), HasSubstr("2 % (1.4 to 2.4)"));
+    EXPECT_THAT(bias_words(estimate.squared_bias), HasSubstr("2 % (1.4 to 2.4)"));
     estimate.squared_error = {1e-4, 0};
     estimate.reference_noise = {4e-4, 0};
     EXPECT_THAT(error_words(estimate), HasSubstr("< 2 % (reference)"));

@@ -116,6 +116,22 @@ TEST_P(Unbiased, IsFoundBiasedWhenItIs)
     EXPECT_GE(covered, 0.89 * repeats);
 }
 
+TEST_P(Unbiased, ShowsSmallBiasesInSquares)
+{
+    int claimed = 0, wrong = 0;
+    Estimate none;
+    Noise of{std::mt19937_64(5), GetParam()};
+    for (int k = 0; k < repeats; ++k) {
+        claimed += estimate_error(picture_of(1.03, 0.15, of), picture_of(1, 0.05, of)).smooth_bias.is_above_zero();
+        const Measured bias = estimate_error(picture_of(1, 0.15, of), picture_of(1, 0.05, of)).smooth_bias;
+        wrong += bias.is_above_zero();
+        none.add(bias.value);
+    }
+    EXPECT_GE(claimed, 0.9 * repeats);
+    EXPECT_LE(wrong, 4);
+    EXPECT_LT(std::abs(none.z(0)), 4);
+}
+
 TEST(ErrorEstimate, KnowsWhenTheReferenceIsNoBetter)
 {
     Noise of{std::mt19937_64(4)};
