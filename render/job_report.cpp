@@ -91,6 +91,9 @@ std::string statistics_text(const FrameReport& report)
     std::string text = fmt::format("frame {} {}: {} grains\n", report.frame, report.name, report.grains);
     for (const PartReport& part : report.parts) text += part_text(part);
     text += fmt::format("  set up in {:.2f} s, rendered in {:.2f} s: {} samples a pixel, {} paths\n", report.setup_seconds, s.seconds, s.spp, s.paths);
+    if (s.error) {
+        text += fmt::format("  relative error {:.3g} (tile of the largest: {:.3g}), {:.1f} samples a pixel in the mean\n", s.error->picture, s.error->worst_tile, s.mean_spp);
+    }
     text += fmt::format("  {} segments ({:.3f} million a second), {} shadow rays, {:.2f} segments a path, longest {}\n", s.segments,
                         1e-6 * per_second(s.segments, s.seconds), s.shadow_rays, static_cast<double>(s.segments) / static_cast<double>(std::max<uint64_t>(1, s.paths)), s.longest);
     if (s.events > 0) text += fmt::format("  {} scatterings in media ({:.3f} million a second)\n", s.events, 1e-6 * per_second(s.events, s.seconds));
@@ -113,7 +116,12 @@ std::string statistics_json(const std::vector<FrameReport>& reports, const std::
                           {"setup_seconds", report.setup_seconds}, {"render_seconds", s.seconds}, {"spp", s.spp}, {"paths", s.paths},
                           {"segments", s.segments}, {"shadow_rays", s.shadow_rays}, {"medium_events", s.events}, {"shells", s.shells}, {"longest_path", s.longest},
                           {"segments_per_second", per_second(s.segments, s.seconds)}, {"non_finite", s.non_finite}, {"leaks", s.leaks},
-                          {"cut", s.cut}, {"stopped", s.stopped}, {"cancelled", s.cancelled}, {"timed_out", s.timed_out}});
+                          {"mean_spp", s.mean_spp}, {"cut", s.cut}, {"stopped", s.stopped}, {"cancelled", s.cancelled}, {"timed_out", s.timed_out}});
+        if (s.error) {
+            frames.back()["relative_error"] = s.error->picture;
+            frames.back()["worst_tile_error"] = s.error->worst_tile;
+            frames.back()["error_reached"] = s.error_reached;
+        }
     }
     return json{{"version", SCREE_VERSION}, {"integrator", integrator}, {"peak_memory_bytes", peak_memory()}, {"frames", frames}}.dump(2) + "\n";
 }

@@ -57,6 +57,7 @@ FrameRange parse_frames(const std::string& text)
 struct Arguments {
     std::string integrator, accuracy, medium_form, stf_form, shells, size, crop, pixels, frames, debug, strategy = "both";
     std::vector<std::string> overrides, aov;
+    std::optional<double> error;
     RenderJob job;
 };
 
@@ -74,6 +75,14 @@ void take_over(Arguments& a)
     if (!a.pixels.empty()) {
         const auto n = split_whole_numbers(a.pixels, ',', 4, -1e6, 1e6, "--pixelbounds", "x0,x1,y0,y1 in pixels");
         job.pixel_bounds = std::array<int, 4>{static_cast<int>(n[0]), static_cast<int>(n[1]), static_cast<int>(n[2]), static_cast<int>(n[3])};
+    }
+    // Negated, for what is not a number.
+    if (a.error && !(*a.error > 0 && *a.error <= 1)) {
+        throw InputError("--error", fmt::format("{}", *a.error), "a relative error in (0, 1]", "2 % is --error 0.02");
+    }
+    job.options.error = a.error.value_or(0);
+    if (a.error && job.spp && *job.spp < 4) {
+        throw InputError("--spp", std::to_string(*job.spp), "at least 4 with --error", "two halves of the samples tell the error from their spread");
     }
     if (!a.frames.empty()) job.frames = parse_frames(a.frames);
     if (!a.debug.empty()) {
@@ -110,7 +119,8 @@ void add_render_command(CLI::App& app)
     command->add_option("scene", job.scene, "Scene file (JSON)")->required();
     command->add_option("-o,--output", job.outputs,
                         "Picture to write: .exr, or .png, .jpg for looking at; repeatable; %04d takes the frame number (default: the scene's name .exr)");
-    command->add_option("--spp", job.spp, "Samples a pixel (default 64, or what --timeout allows)")->check(CLI::Range(1u, 1u << 30));
+    command->add_option("--spp", job.spp, "Samples a pixel (default 64, or what --timeout allows and --error needs)")->check(CLI::Range(1u, 1u << 30));
+    command->add_option("--error", a.error, "Stop at this relative error of the picture, 0.02 for 2 %; noisy parts get more samples, --spp is the most");
     command->add_option("--timeout", job.options.timeout, "Stop after this many seconds of rendering a frame")->check(CLI::PositiveNumber);
     command->add_option("--integrator", a.integrator, "auto (the rest joined as the scene and --accuracy ask), ept (grains as they are), ppt (grains averaged over rotations), vpt (a medium in place of grains) or stf (the same, through shells)")->check(CLI::IsMember(integrator_names));
     command->add_option("--accuracy", a.accuracy, "How far approximations may go: reference, high, standard or draft")->check(CLI::IsMember(accuracy_names));

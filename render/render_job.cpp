@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include <bit>
 #include <chrono>
 #include <fstream>
 
@@ -73,6 +74,11 @@ PictureMetadata make_metadata(const RenderJob& job, const WorldBuilder& builder,
                       {"sceneHash", fmt::format("{:016x}", builder.scene_hash())}, {"seed", std::to_string(job.options.seed)}};
     metadata.numbers = {{"spp", statistics.spp}, {"renderTime", statistics.seconds}, {"frame", static_cast<double>(frame)},
                         {"nonFiniteSamples", static_cast<double>(statistics.non_finite)}};
+    if (statistics.error) {
+        metadata.numbers["relativeError"] = statistics.error->picture;
+        metadata.numbers["worstTileError"] = statistics.error->worst_tile;
+        metadata.numbers["meanSpp"] = statistics.mean_spp;
+    }
     const TransportPlan& plan = builder.plan();
     if (plan.has_grain_medium) {
         metadata.texts["mediumForm"] = medium_form_names[static_cast<size_t>(plan.medium_form)];
@@ -191,10 +197,11 @@ private:
             return;
         }
         Film film = make_film(job_, scene_.film);
+        if (options.error > 0) film.keep_halves();
         const std::filesystem::path checkpoint = frame_path(outputs_[0], frame, many) + ".checkpoint";
         const uint64_t approximation = options.path.explicit_grains * uint64_t{4} + static_cast<uint64_t>(scene_.integrator.accuracy);
         const uint64_t estimator = mix64(approximation ^ mix64(options.path.max_depth * uint64_t{4} + static_cast<uint64_t>(options.path.direct_light)));
-        const CheckpointKey key{mix64(builder_.scene_hash() ^ estimator), options.seed};
+        const CheckpointKey key{mix64(builder_.scene_hash() ^ estimator ^ std::bit_cast<uint64_t>(options.error)), options.seed};
         if (job_.resume && std::filesystem::exists(checkpoint)) read_checkpoint(checkpoint, film, key);
 
         report.statistics = render(*world, setup.tracer(), setup.camera(), setup.filter(), film, options, progress);
@@ -233,6 +240,7 @@ private:
         }
         if (s.cancelled) say(fmt::format("interrupted: the picture holds at least {} samples a pixel; go on with --resume", s.spp));
         else if (s.timed_out) say(fmt::format("stopped by --timeout at {} samples a pixel", s.spp));
+        if (s.error && !s.error_reached) say(fmt::format("--error was not reached: {:.3g}, in the worst tile {:.3g}", s.error->picture, s.error->worst_tile));
         if (s.stopped > 0) say(fmt::format("{} paths were still on their way when time ran out and are left out", s.stopped));
         if (s.cut > 0) say(fmt::format("{} of {} paths were cut by the depth limit: the picture is too dark", s.cut, s.paths));
     }

@@ -7,12 +7,12 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <numeric>
 
 namespace scree {
 
 namespace {
 
-constexpr int tile_size = 16;
 constexpr double wave_seconds = 2; // what a wave may take: how long a user waits for Ctrl-C
 
 using Clock = std::chrono::steady_clock;
@@ -36,42 +36,166 @@ void add(RenderStatistics& total, const RenderStatistics& part)
     if (!total.first_non_finite) total.first_non_finite = part.first_non_finite;
 }
 
-/// Brings every pixel of a tile up to `target` samples; false when stopped in between.
-template <class Stop>
-bool render_tile(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter, Film& film, int x0,
-                 int y0, uint32_t target, const RenderOptions& options, const Stop& stop, RenderStatistics& part)
+void count(const PathResult& path, RenderStatistics& part)
 {
-    for (int y = y0; y < std::min(y0 + tile_size, film.y1()); ++y) {
-        if (stop()) return false;
-        for (int x = x0; x < std::min(x0 + tile_size, film.x1()); ++x) {
-            Pixel& pixel = film.at(x, y);
-            while (pixel.drawn < target) {
-                const uint32_t s = pixel.drawn++;
-                const PathResult path = render_sample(world, tracer, camera, filter, x, y, s, options);
-                if (path.stopped) {
-                    --pixel.drawn;
-                    ++part.stopped;
-                    return false;
-                }
-                ++part.paths;
-                part.segments += path.segments;
-                part.shadow_rays += path.shadow_rays;
-                part.events += path.events;
-                part.shells += path.shells;
-                part.leaks += path.leaks;
-                part.cut += path.cut;
-                part.longest = std::max(part.longest, path.segments);
-                if (finite(path.radiance)) {
-                    pixel.add(path.radiance, path.first);
-                } else {
-                    ++part.non_finite;
-                    if (!part.first_non_finite) part.first_non_finite = SamplePlace{x, y, s};
+    ++part.paths;
+    part.segments += path.segments;
+    part.shadow_rays += path.shadow_rays;
+    part.events += path.events;
+    part.shells += path.shells;
+    part.leaks += path.leaks;
+    part.cut += path.cut;
+    part.longest = std::max(part.longest, path.segments);
+}
+
+/// One call of `render`.
+class Loop {
+public:
+    Loop(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter, Film& film, const RenderOptions& options,
+         const Progress& progress)
+        : world_(world), tracer_(tracer), camera_(camera), filter_(filter), film_(film), options_(options), path_options_(options),
+          progress_(progress)
+    {
+        path_options_.path.stop = [this] { return progress_.cancelled() || out_of_time(); };
+    }
+
+    RenderStatistics run()
+    {
+        if (options_.error > 0) run_to_error();
+        else run_to_spp();
+        uint64_t drawn = 0;
+        for (const Pixel& pixel : film_.pixels()) drawn += pixel.drawn;
+        total_.mean_spp = static_cast<double>(drawn) / static_cast<double>(std::max<size_t>(1, film_.pixels().size()));
+        total_.cancelled = progress_.cancelled();
+        total_.timed_out = !total_.cancelled && !total_.error_reached && !exhausted_;
+        total_.seconds = seconds_since(start_);
+        return total_;
+    }
+
+private:
+    bool out_of_time() const { return options_.timeout > 0 && seconds_since(start_) > options_.timeout; }
+    uint32_t least_drawn() const
+    {
+        uint32_t least = options_.spp;
+        for (const Pixel& pixel : film_.pixels()) least = std::min(least, pixel.drawn);
+        return least;
+    }
+
+    void run_to_spp()
+    {
+        uint32_t done = least_drawn(), wave = 1;
+        std::vector<int> tiles(static_cast<size_t>(film_.tile_columns() * film_.tile_rows()));
+        std::iota(tiles.begin(), tiles.end(), 0);
+        while (done < options_.spp && !tiles.empty()) {
+            const uint32_t target = done + std::min(wave, options_.spp - done);
+            const auto wave_start = Clock::now();
+            const bool complete = run_wave(tiles, target, done == 0, [&](double wave_done) { return (done + wave_done * (target - done)) / options_.spp; });
+            if (!complete) break;
+            done = target;
+            if (progress_.cancelled() || out_of_time()) break;
+            const double rate = std::max(1e-9, seconds_since(wave_start) / wave);
+            wave = static_cast<uint32_t>(std::clamp(wave_seconds / rate, 1.0, std::min(2.0 * wave, 65536.0)));
+        }
+        total_.spp = done;
+        exhausted_ = done >= options_.spp;
+    }
+
+    /// One wave a level of the plan.
+    void run_to_error()
+    {
+        if (film_.halves().empty()) film_.keep_halves();
+        TileStates& states = film_.tile_states();
+        AdaptivePlan plan(states, film_.tile_columns(), options_.error);
+        const uint32_t most = options_.spp / 2;
+        bool first = least_drawn() == 0, complete = true;
+        while (complete && !plan.finished()) {
+            std::vector<int> going;
+            for (size_t i = 0; i < states.tiles.size(); ++i) {
+                if (states.tiles[i].counts.going()) going.push_back(static_cast<int>(i));
+            }
+            const uint32_t target = std::min(states.level, most);
+            const double before = plan.progress();
+            complete = run_wave(going, 2 * target, first, [&](double wave_done) { return before + wave_done * 0.2 * (1 - before); });
+            first = false;
+            if (!complete) break;
+            exhausted_ = states.level > most; // and nothing is decided where the limit stopped it: more may come
+            if (exhausted_) break;
+            estimate_tiles(film_, plan);
+            plan.decide();
+            if (progress_.cancelled() || out_of_time()) break;
+        }
+        total_.error_reached = plan.finished();
+        film_.take_halves();
+        total_.error = claimed_error(film_);
+        total_.spp = least_drawn();
+    }
+
+    /// Brings every pixel of the tiles to `target` samples, unless time runs out (but not in the first wave: a picture has a
+    /// sample everywhere) or the user stops it; false then. fraction_done: of the picture from that of the wave.
+    template <class Fraction>
+    bool run_wave(const std::vector<int>& tiles, uint32_t target, bool first, const Fraction& fraction_done)
+    {
+        std::atomic<int> finished{0};
+        std::atomic<bool> complete{true};
+        const auto stop = [&] { return progress_.cancelled() || (!first && out_of_time()); };
+        tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t i) {
+            flush_subnormals();
+            RenderStatistics part;
+            if (stop() || !run_tile(tiles[i], target, stop, part)) complete = false;
+            const int count = ++finished;
+            const std::lock_guard lock(mutex_);
+            add(total_, part);
+            const double by_samples = fraction_done(static_cast<double>(count) / static_cast<double>(tiles.size()));
+            const double by_time = options_.timeout > 0 ? seconds_since(start_) / options_.timeout : 0;
+            progress_.update("rendering", std::min(1.0, std::max(by_samples, by_time)));
+        }, tbb::simple_partitioner());
+        return complete;
+    }
+
+    template <class Stop>
+    bool run_tile(int tile, uint32_t target, const Stop& stop, RenderStatistics& part)
+    {
+        const int x0 = film_.x0() + tile % film_.tile_columns() * Film::tile_size, y0 = film_.y0() + tile / film_.tile_columns() * Film::tile_size;
+        const HalfCounts* halves = film_.halves().empty() ? nullptr : &film_.tile_states().tiles[static_cast<size_t>(tile)].counts;
+        for (int y = y0; y < std::min(y0 + Film::tile_size, film_.y1()); ++y) {
+            if (stop()) return false;
+            for (int x = x0; x < std::min(x0 + Film::tile_size, film_.x1()); ++x) {
+                Pixel& pixel = film_.at(x, y);
+                while (pixel.drawn < target) {
+                    const uint32_t s = pixel.drawn++;
+                    const PathResult path = render_sample(world_, tracer_, camera_, filter_, x, y, s, path_options_);
+                    if (path.stopped) {
+                        --pixel.drawn;
+                        ++part.stopped;
+                        return false;
+                    }
+                    count(path, part);
+                    if (finite(path.radiance)) {
+                        pixel.add(path.radiance, path.first);
+                        if (halves) film_.halves_at(x, y).add(s, path.radiance, *halves);
+                    } else {
+                        ++part.non_finite;
+                        if (!part.first_non_finite) part.first_non_finite = SamplePlace{x, y, s};
+                    }
                 }
             }
         }
+        return true;
     }
-    return true;
-}
+
+    const World& world_;
+    const Tracer& tracer_;
+    const Camera& camera_;
+    const Filter& filter_;
+    Film& film_;
+    const RenderOptions& options_;
+    RenderOptions path_options_; ///< with the loop's own word on when to stop
+    const Progress& progress_;
+    const Clock::time_point start_ = Clock::now();
+    RenderStatistics total_;
+    std::mutex mutex_;
+    bool exhausted_ = false; ///< spp was reached
+};
 
 } // namespace
 
@@ -90,50 +214,7 @@ PathResult render_sample(const World& world, const Tracer& tracer, const Camera&
 RenderStatistics render(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter, Film& film,
                         const RenderOptions& options, const Progress& progress)
 {
-    const auto start = Clock::now();
-    const int columns = (film.x1() - film.x0() + tile_size - 1) / tile_size, rows = (film.y1() - film.y0() + tile_size - 1) / tile_size;
-    const int tiles = columns * rows;
-    RenderStatistics total;
-    std::mutex mutex;
-    uint32_t done = options.spp, wave = 1;
-    for (const Pixel& pixel : film.pixels()) done = std::min(done, pixel.drawn);
-    while (done < options.spp && tiles > 0) {
-        const uint32_t target = done + std::min(wave, options.spp - done);
-        const auto wave_start = Clock::now();
-        std::atomic<int> finished{0};
-        std::atomic<bool> complete{true};
-        // The first wave is finished whatever the time: a picture has a sample everywhere, unless the user stops it.
-        const auto stop = [&] {
-            return progress.cancelled() || (done > 0 && options.timeout > 0 && seconds_since(start) > options.timeout);
-        };
-        RenderOptions wave_options = options;
-        wave_options.path.stop = [&] { return progress.cancelled() || (options.timeout > 0 && seconds_since(start) > options.timeout); };
-        tbb::parallel_for(0, tiles, [&](int tile) {
-            flush_subnormals();
-            RenderStatistics part;
-            const int x0 = film.x0() + tile % columns * tile_size, y0 = film.y0() + tile / columns * tile_size;
-            if (stop() || !render_tile(world, tracer, camera, filter, film, x0, y0, target, wave_options, stop, part)) {
-                complete = false;
-            }
-            const int count = ++finished;
-            const std::lock_guard lock(mutex);
-            add(total, part);
-            const double wave_done = static_cast<double>(count) / tiles;
-            const double by_samples = (done + wave_done * (target - done)) / options.spp;
-            const double by_time = options.timeout > 0 ? seconds_since(start) / options.timeout : 0;
-            progress.update("rendering", std::min(1.0, std::max(by_samples, by_time)));
-        }, tbb::simple_partitioner());
-        if (!complete) break;
-        done = target;
-        if (stop()) break;
-        const double rate = std::max(1e-9, seconds_since(wave_start) / wave);
-        wave = static_cast<uint32_t>(std::clamp(wave_seconds / rate, 1.0, std::min(2.0 * wave, 65536.0)));
-    }
-    total.spp = done;
-    total.cancelled = progress.cancelled();
-    total.timed_out = !total.cancelled && done < options.spp;
-    total.seconds = seconds_since(start);
-    return total;
+    return Loop(world, tracer, camera, filter, film, options, progress).run();
 }
 
 } // namespace scree

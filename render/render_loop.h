@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ingest/support/progress.h"
+#include "render/adaptive.h"
 #include "render/film/film.h"
 #include "render/film/filter.h"
 #include "render/integrators/path_tracer.h"
@@ -12,6 +13,7 @@ namespace scree {
 
 struct RenderOptions {
     uint32_t spp = 64;     ///< samples a pixel; with a timeout and no spp of its own, as many as the time allows
+    double error = 0;      ///< relative, at which to stop (see AdaptivePlan); 0: at spp alone, of which there are at least 4 else
     double timeout = 0;    ///< seconds; 0: none
     uint64_t seed = 0;
     PathOptions path;
@@ -32,14 +34,17 @@ struct RenderStatistics {
     uint64_t cut = 0;         ///< paths ended by a depth limit the user set
     uint32_t longest = 0;     ///< segments of the longest path
     uint32_t spp = 0;         ///< samples every pixel has at least
+    double mean_spp = 0;      ///< over the pixels; more than spp where an error is asked for
     double seconds = 0;
     bool cancelled = false;   ///< stopped by the user: pixels may differ in their number of samples
     bool timed_out = false;
     std::optional<SamplePlace> first_non_finite;
+    std::optional<ErrorClaim> error; ///< of the film, where one was asked for
+    bool error_reached = false;      ///< every tile has the samples it was found to need
 };
 
-/// Adds samples to every pixel of the film, in waves over tiles on all threads of the caller's arena, until spp, timeout
-/// or cancellation. A sample depends on (seed, pixel, number) alone. Continues where the film stands.
+/// Adds samples to every pixel of the film, in waves over tiles on all threads of the caller's arena, until spp, the error,
+/// timeout or cancellation. A sample depends on (seed, pixel, number) alone. Continues where the film stands.
 RenderStatistics render(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter, Film& film,
                         const RenderOptions& options, const Progress& progress);
 

@@ -56,7 +56,7 @@ RenderSetup::RenderSetup(const WorldBuilder& builder, std::shared_ptr<const Worl
     const PixelSize pixel = pixel_size(scene.camera, scene.film);
     options_.path.resolved = {plan.least_pixels * world_->space.length(pixel.width), plan.least_pixels * pixel.slope};
     if (job.spp) options_.spp = *job.spp;
-    else if (options_.timeout > 0) options_.spp = 1u << 30;
+    else if (options_.timeout > 0 || options_.error > 0) options_.spp = 1u << 30;
 }
 
 } // namespace scree

@@ -13,16 +13,33 @@ namespace scree {
 namespace {
 
 // Plain numbers without pointers, though Imath's constructors keep them from being trivially copyable.
-static_assert(std::is_standard_layout_v<Pixel> && std::is_trivially_destructible_v<Pixel>);
+template <class T>
+inline constexpr bool plain = std::is_standard_layout_v<T> && std::is_trivially_destructible_v<T>;
+static_assert(plain<Pixel> && plain<PixelHalves> && plain<TileState>);
+
+template <class T>
+void write_all(std::ofstream& out, const std::vector<T>& items)
+{
+    out.write(reinterpret_cast<const char*>(items.data()), static_cast<std::streamsize>(items.size() * sizeof(T)));
+}
+
+/// As many as there are in `like`.
+template <class T>
+std::vector<T> read_all(std::ifstream& in, const std::vector<T>& like)
+{
+    std::vector<T> items(like.size());
+    in.read(reinterpret_cast<char*>(items.data()), static_cast<std::streamsize>(items.size() * sizeof(T)));
+    return items;
+}
 
 /// The head of the file: everything that must agree, in the machine's own byte order and layout.
 struct Head {
-    std::array<char, 8> magic{'s', 'c', 'r', 'e', 'e', 'c', 'k', '1'};
-    uint64_t scene_hash, seed, pixel_bytes = sizeof(Pixel);
+    std::array<char, 8> magic{'s', 'c', 'r', 'e', 'e', 'c', 'k', '2'};
+    uint64_t scene_hash, seed, pixel_bytes = sizeof(Pixel), halves; ///< halves: how many pixels have them
     std::array<int32_t, 6> window;
 
     Head(const Film& film, const CheckpointKey& key)
-        : scene_hash(key.scene_hash), seed(key.seed),
+        : scene_hash(key.scene_hash), seed(key.seed), halves(film.halves().size()),
           window{film.width(), film.height(), film.x0(), film.y0(), film.x1(), film.y1()}
     {
     }
@@ -36,7 +53,10 @@ void write_checkpoint(const std::filesystem::path& path, const Film& film, const
     std::ofstream out(file.temporary(), std::ios::binary);
     const Head head(film, key);
     out.write(reinterpret_cast<const char*>(&head), sizeof head);
-    out.write(reinterpret_cast<const char*>(film.pixels().data()), static_cast<std::streamsize>(film.pixels().size() * sizeof(Pixel)));
+    write_all(out, film.pixels());
+    write_all(out, film.halves());
+    write_all(out, film.tile_states().tiles);
+    out.write(reinterpret_cast<const char*>(&film.tile_states().level), sizeof film.tile_states().level);
     out.close();
     if (!out) throw InputError(path.string(), "a disk that is full or cannot be written", "room for the checkpoint");
     file.commit();
@@ -52,13 +72,18 @@ void read_checkpoint(const std::filesystem::path& path, Film& film, const Checkp
         throw InputError(path.string(), "no checkpoint of this version", "a checkpoint", "remove it, or render without --resume");
     }
     if (std::memcmp(&found, &expected, sizeof found) != 0) {
-        throw InputError(path.string(), "a checkpoint of another picture (scene, input, seed, size or crop differ)",
+        throw InputError(path.string(), "a checkpoint of another picture (scene, input, seed, size, crop or --error differ)",
                          "one of this picture", "remove it, or render without --resume");
     }
-    std::vector<Pixel> pixels(film.pixels().size());
-    in.read(reinterpret_cast<char*>(pixels.data()), static_cast<std::streamsize>(pixels.size() * sizeof(Pixel)));
+    std::vector<Pixel> pixels = read_all(in, film.pixels());
+    std::vector<PixelHalves> halves = read_all(in, film.halves());
+    TileStates states;
+    states.tiles = read_all(in, film.tile_states().tiles);
+    in.read(reinterpret_cast<char*>(&states.level), sizeof states.level);
     if (!in) throw InputError(path.string(), "a checkpoint that ends early", "a whole one", "remove it, or render without --resume");
     film.pixels() = std::move(pixels);
+    film.halves() = std::move(halves);
+    film.tile_states() = std::move(states);
 }
 
 } // namespace scree

@@ -40,4 +40,21 @@ Film::Film(int width, int height, int x0, int y0, int x1, int y1)
 {
 }
 
+void Film::keep_halves()
+{
+    halves_.resize(pixels_.size());
+    tile_states_.tiles.resize(static_cast<size_t>(tile_columns()) * static_cast<size_t>(tile_rows()));
+}
+
+void Film::take_halves()
+{
+    for (size_t i = 0; i < halves_.size(); ++i) {
+        Pixel& pixel = pixels_[i];
+        const double n = pixel.samples;
+        const V3d mean = halves_[i].mean();
+        pixel.sum = n * mean;
+        pixel.sum_of_squares = n * ((n - 1) * halves_[i].variance() + mean * mean);
+    }
+}
+
 } // namespace scree

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/film/halves.h"
 #include "render/math.h"
 
 #include <cstdint>
@@ -54,6 +55,23 @@ public:
     std::vector<Pixel>& pixels() { return pixels_; }
     const std::vector<Pixel>& pixels() const { return pixels_; }
 
+    /// Keeps the two halves of the samples besides their sum; before the first sample.
+    void keep_halves();
+    /// As pixels(); empty unless kept.
+    std::vector<PixelHalves>& halves() { return halves_; }
+    const std::vector<PixelHalves>& halves() const { return halves_; }
+    PixelHalves& halves_at(int x, int y) { return halves_[index(x, y)]; }
+    const PixelHalves& halves_at(int x, int y) const { return halves_[index(x, y)]; }
+    /// Gives the pixels the values and variances of their halves, in place of those of all samples.
+    void take_halves();
+
+    static constexpr int tile_size = 16;
+    int tile_columns() const { return (x1_ - x0_ + tile_size - 1) / tile_size; }
+    int tile_rows() const { return (y1_ - y0_ + tile_size - 1) / tile_size; }
+    /// Rows of tiles; empty unless halves are kept.
+    TileStates& tile_states() { return tile_states_; }
+    const TileStates& tile_states() const { return tile_states_; }
+
 private:
     size_t index(int x, int y) const
     {
@@ -61,6 +79,8 @@ private:
     }
     int width_, height_, x0_, y0_, x1_, y1_;
     std::vector<Pixel> pixels_;
+    std::vector<PixelHalves> halves_;
+    TileStates tile_states_;
 };
 
 } // namespace scree

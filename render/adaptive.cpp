@@ -1,0 +1,193 @@
+#include "render/adaptive.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree {
+
+namespace {
+
+constexpr double worst_tile = 2; // times the error asked for
+constexpr double neighbours = 0.25; // what part of the variance around a tile is expected in it, whatever it saw itself
+
+double trace(const V3d& v) { return v.x + v.y + v.z; }
+
+/// Calls f with every pixel's index in the film's rows, of one tile.
+template <class F>
+void for_pixels(const Film& film, int tile, const F& f)
+{
+    const int width = film.x1() - film.x0(), height = film.y1() - film.y0();
+    const int x0 = tile % film.tile_columns() * Film::tile_size, y0 = tile / film.tile_columns() * Film::tile_size;
+    for (int y = y0; y < std::min(y0 + Film::tile_size, height); ++y) {
+        for (int x = x0; x < std::min(x0 + Film::tile_size, width); ++x) f(static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x));
+    }
+}
+
+constexpr double noisy = 0.1; // relative variance of a pixel's mean at which the mean says nothing of its brightness
+
+/// The mean, made shorter so that its square has the expectation of the true one's; the noisier it is, the less is it taken
+/// to be brighter than its tile: of pixels that met a rare light once, the mean is all noise.
+V3d unbiased_scale(const V3d& mean, double variance_of_mean, const V3d& tile_mean)
+{
+    const double square = mean.dot(mean);
+    if (square <= 0) return mean;
+    const double corrected = std::max(0.0, square - variance_of_mean), trust = 1 - std::min(1.0, variance_of_mean / (noisy * square));
+    return std::sqrt((trust * corrected + (1 - trust) * std::min(corrected, tile_mean.dot(tile_mean))) / square) * mean;
+}
+
+/// What a half has seen, mean over the pixels and standard error of that.
+void estimate_variance(const Film& film, int tile, int half, const RelativeError& measure, TileState& state)
+{
+    TileEstimate& estimate = state.estimates[static_cast<size_t>(half)];
+    double sum = 0, squares = 0;
+    for_pixels(film, tile, [&](size_t i) {
+        const double q = relative_variance(film.halves()[i].judge(half, state.counts), estimate.sum / static_cast<double>(estimate.pixels), measure);
+        sum += q;
+        squares += q * q;
+    });
+    const double n = static_cast<double>(estimate.pixels);
+    estimate.variance = sum / n;
+    estimate.deviation = n > 1 ? std::sqrt(std::max(0.0, squares / n - estimate.variance * estimate.variance) / (n - 1)) : estimate.variance;
+}
+
+} // namespace
+
+double relative_variance(const HalfSums& half, const V3d& tile_mean, const RelativeError& measure)
+{
+    if (half.samples < 2) return 0;
+    const double variance = trace(half.variance());
+    return measure.of(variance, unbiased_scale(half.mean(), variance / half.samples, tile_mean));
+}
+
+void estimate_tiles(Film& film, AdaptivePlan& plan)
+{
+    std::vector<TileState>& tiles = film.tile_states().tiles;
+    for (int half = 0; half < 2; ++half) {
+        const auto each_judged = [&](const auto& f) {
+            tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t tile) {
+                if (plan.judges(tile, half)) f(static_cast<int>(tile), tiles[tile]);
+            });
+        };
+        each_judged([&](int tile, TileState& state) {
+            TileEstimate& estimate = state.estimates[static_cast<size_t>(half)];
+            estimate = {};
+            for_pixels(film, tile, [&](size_t i) {
+                ++estimate.pixels;
+                estimate.sum += film.halves()[i].judge(half, state.counts).mean();
+            });
+        });
+        const RelativeError measure(plan.mean(half)); // needs all tiles
+        each_judged([&](int tile, TileState& state) { estimate_variance(film, tile, half, measure, state); });
+    }
+}
+
+ErrorClaim claimed_error(const Film& film)
+{
+    V3d mean(0);
+    for (const PixelHalves& pixel : film.halves()) mean += pixel.mean();
+    const RelativeError measure(mean / static_cast<double>(std::max<size_t>(1, film.halves().size())));
+    ErrorClaim claim;
+    double total = 0;
+    for (int tile = 0; tile < film.tile_columns() * film.tile_rows(); ++tile) {
+        double sum = 0, pixels = 0;
+        V3d tile_mean(0);
+        for_pixels(film, tile, [&](size_t i) {
+            tile_mean += film.halves()[i].mean();
+            ++pixels;
+        });
+        for_pixels(film, tile, [&](size_t i) {
+            const double variance = trace(film.halves()[i].variance());
+            sum += measure.of(variance, unbiased_scale(film.halves()[i].mean(), variance, tile_mean / pixels));
+        });
+        total += sum;
+        claim.worst_tile = std::max(claim.worst_tile, std::sqrt(sum / pixels));
+    }
+    claim.picture = std::sqrt(total / static_cast<double>(std::max<size_t>(1, film.halves().size())));
+    return claim;
+}
+
+AdaptivePlan::AdaptivePlan(TileStates& states, int columns, double error)
+    : states_(states), columns_(columns), rows_(static_cast<int>(states.tiles.size()) / columns), error_(error),
+      least_(least_samples(error))
+{
+}
+
+bool AdaptivePlan::finished() const
+{
+    return std::ranges::none_of(states_.tiles, [](const TileState& tile) { return tile.counts.going(); });
+}
+
+uint32_t AdaptivePlan::least_samples(double error) 
+{
+    return static_cast<uint32_t>(std::ceil(std::clamp(1 / error, 8.0, 1e6)));
+}
+
+uint32_t AdaptivePlan::next_level(uint32_t level, uint32_t least)
+{
+    return level < least ? std::min(2 * level, least) : level + level / 4;
+}
+
+V3d AdaptivePlan::mean(int half) const
+{
+    V3d sum(0);
+    int64_t pixels = 0;
+    for (const TileState& tile : states_.tiles) {
+        sum += tile.estimates[static_cast<size_t>(half)].sum;
+        pixels += tile.estimates[static_cast<size_t>(half)].pixels;
+    }
+    return pixels > 0 ? sum / static_cast<double>(pixels) : V3d(0);
+}
+
+/// Samples of each half that every tile should have by what one half knows.
+std::vector<double> AdaptivePlan::wanted(int half) const
+{
+    std::vector<double> roots;
+    double sum = 0, pixels = 0;
+    for (int row = 0; row < rows_; ++row) {
+        for (int column = 0; column < columns_; ++column) {
+            double around = 0, count = 0;
+            for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r) {
+                for (int c = std::max(0, column - 1); c <= std::min(columns_ - 1, column + 1); ++c) {
+                    const TileEstimate& near = states_.tiles[static_cast<size_t>(r * columns_ + c)].estimates[static_cast<size_t>(half)];
+                    around += near.variance * static_cast<double>(near.pixels);
+                    count += static_cast<double>(near.pixels);
+                }
+            }
+            const TileEstimate& own = states_.tiles[static_cast<size_t>(row * columns_ + column)].estimates[static_cast<size_t>(half)];
+            // A standard error more than was seen: who stops at the first low estimate stops too early.
+            const double variance = std::max(own.variance + own.deviation, count > 0 ? neighbours * around / count : 0);
+            roots.push_back(std::sqrt(variance));
+            sum += roots.back() * static_cast<double>(own.pixels);
+            pixels += static_cast<double>(own.pixels);
+        }
+    }
+    const double mean_root = pixels > 0 ? sum / pixels : 0;
+    for (double& root : roots) {
+        const double least = root * root / (worst_tile * worst_tile); // both halves together have twice the samples
+        root = std::max(root * mean_root, least) / (2 * error_ * error_);
+    }
+    return roots;
+}
+
+void AdaptivePlan::decide()
+{
+    needed_ = made_ = 0;
+    for (int half = 0; half < 2; ++half) {
+        const std::vector<double> samples = wanted(half);
+        for (size_t i = 0; i < states_.tiles.size(); ++i) {
+            uint32_t& other = states_.tiles[i].counts.counts[static_cast<size_t>(1 - half)];
+            const double pixels = static_cast<double>(states_.tiles[i].estimates[0].pixels);
+            if (other == undecided && states_.level >= least_ && states_.level >= samples[i]) other = states_.level;
+            const double have = std::min(states_.level, other);
+            made_ += pixels * have;
+            needed_ += pixels * (other == undecided ? std::max(have, samples[i]) : have);
+        }
+    }
+    states_.level = next_level(states_.level, least_);
+}
+
+double AdaptivePlan::progress() const { return needed_ > 0 ? made_ / needed_ : 0; }
+
+} // namespace scree

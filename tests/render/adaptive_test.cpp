@@ -1,0 +1,208 @@
+// Rendering up to an error: what is drawn decides how much is drawn, and the picture must not show it.
+
+#include "render/adaptive.h"
+#include "render/sampler.h"
+#include "tests/builders/statistics.h"
+#include "tests/render/scene_files.h"
+
+#include <gmock/gmock.h>
+
+namespace scree {
+namespace {
+
+using namespace test;
+
+/// A sample of mean 1: a half, and with probability p what is missing.
+struct RareLight {
+    double p;
+    C3f operator()(Sampler& sampler) const { return C3f(static_cast<float>(0.5 + (sampler.next() < p ? 0.5 / p : 0.0))); }
+};
+
+void draw(Film& film, int tile, uint32_t target, uint64_t seed, const RareLight& light)
+{
+    const HalfCounts& counts = film.tile_states().tiles[static_cast<size_t>(tile)].counts;
+    const int x0 = tile % film.tile_columns() * Film::tile_size, y0 = tile / film.tile_columns() * Film::tile_size;
+    for (int y = y0; y < std::min(y0 + Film::tile_size, film.y1()); ++y) {
+        for (int x = x0; x < std::min(x0 + Film::tile_size, film.x1()); ++x) {
+            Pixel& pixel = film.at(x, y);
+            while (pixel.drawn < target) {
+                const uint32_t s = pixel.drawn++;
+                Sampler sampler(seed, static_cast<uint32_t>(x), static_cast<uint32_t>(y), s);
+                const C3f radiance = light(sampler);
+                pixel.add(radiance, {});
+                film.halves_at(x, y).add(s, radiance, counts);
+            }
+        }
+    }
+}
+
+/// As `render` does, of samples that cost nothing; false when the limit of samples was met.
+bool draw_to_error(Film& film, double error, uint32_t most, uint64_t seed, const RareLight& light)
+{
+    film.keep_halves();
+    TileStates& states = film.tile_states();
+    AdaptivePlan plan(states, film.tile_columns(), error);
+    while (!plan.finished()) {
+        for (size_t i = 0; i < states.tiles.size(); ++i) {
+            if (states.tiles[i].counts.going()) draw(film, static_cast<int>(i), 2 * std::min(states.level, most), seed, light);
+        }
+        if (states.level > most) return false;
+        estimate_tiles(film, plan);
+        plan.decide();
+    }
+    return true;
+}
+
+/// The rule that suggests itself: a tile stops at the first level at which its own samples say that it may.
+double naive_mean(double error, uint32_t most, uint64_t seed, const RareLight& light)
+{
+    Film film(64, 64, 0, 0, 64, 64);
+    film.keep_halves();
+    double sum = 0;
+    for (int tile = 0; tile < film.tile_columns() * film.tile_rows(); ++tile) {
+        double mean = 0;
+        for (uint32_t level = AdaptivePlan::least_samples(error);; level = AdaptivePlan::next_level(level, AdaptivePlan::least_samples(error))) {
+            draw(film, tile, 2 * level, seed, light);
+            double variance = 0;
+            mean = 0;
+            for (int y = 0; y < Film::tile_size; ++y) {
+                for (int x = 0; x < Film::tile_size; ++x) {
+                    const Pixel& pixel = film.at(tile % 4 * Film::tile_size + x, tile / 4 * Film::tile_size + y);
+                    mean += pixel.mean().x / 256;
+                    variance += pixel.variance().x / 256;
+                }
+            }
+            if (variance <= error * error * mean * mean || level >= most) break;
+        }
+        sum += mean / 16;
+    }
+    return sum;
+}
+
+TEST(Adaptive, IsUnbiasedWhereTheNaiveRuleIsNot)
+{
+    const RareLight light{3e-4};
+    constexpr double error = 1;
+    constexpr uint32_t most = 1024;
+    Estimate halves, naive, told;
+    for (uint64_t seed = 0; seed < 16; ++seed) {
+        Film film(64, 64, 0, 0, 64, 64);
+        draw_to_error(film, error, most, seed, light);
+        film.take_halves();
+        double mean = 0, squares = 0, variance = 0;
+        for (const Pixel& pixel : film.pixels()) {
+            mean += pixel.mean().x / 4096;
+            squares += (pixel.mean().x - 1) * (pixel.mean().x - 1) / 4096;
+            variance += pixel.variance().x / 4096;
+        }
+        halves.add(mean);
+        told.add(variance - squares);
+        naive.add(naive_mean(error, most, seed, light));
+    }
+    std::printf("truth 1: two halves %.4f +- %.4f, naive %.4f +- %.4f; variance told %.4f +- %.4f more than it is\n", halves.mean(),
+                halves.standard_error(), naive.mean(), naive.standard_error(), told.mean(), told.standard_error());
+    EXPECT_LT(std::abs(halves.z(1)), 4);
+    EXPECT_LT(halves.standard_error(), 0.025);
+    EXPECT_LT(naive.z(1), -6);
+    EXPECT_LT(std::abs(told.z(0)), 4);
+}
+
+TEST(Adaptive, ClaimsTheErrorThereIs)
+{
+    const RareLight light{0.02};
+    for (const double error : {0.2, 0.1}) {
+        Estimate difference, truth, claims;
+        for (uint64_t seed = 0; seed < 10; ++seed) {
+            Film film(64, 48, 0, 0, 64, 48);
+            ASSERT_TRUE(draw_to_error(film, error, 1u << 20, seed, light));
+            const RelativeError measure(V3d(1));
+            double squares = 0;
+            for (const PixelHalves& pixel : film.halves()) {
+                const V3d off = pixel.mean() - V3d(1);
+                squares += measure.of(off.dot(off), V3d(1));
+            }
+            squares /= static_cast<double>(film.halves().size());
+            const double claim = claimed_error(film).picture;
+            truth.add(squares);
+            claims.add(claim * claim);
+            difference.add(claim * claim - squares);
+        }
+        std::printf("error asked for %.3f, claimed %.4f, true %.4f\n", error, std::sqrt(claims.mean()), std::sqrt(truth.mean()));
+        EXPECT_LT(std::sqrt(truth.mean()), 1.05 * error);
+        EXPECT_GT(std::sqrt(truth.mean()), 0.6 * error);
+        EXPECT_LT(std::abs(std::sqrt(claims.mean() / truth.mean()) - 1), 0.05 + error * error);
+    }
+}
+
+TEST(Adaptive, DecidesForAHalfByTheOtherAlone)
+{
+    TileStates states;
+    states.tiles.resize(2);
+    states.level = 100;
+    AdaptivePlan plan(states, 2, 0.1);
+    for (TileState& tile : states.tiles) {
+        tile.estimates[0] = {256, V3d(256), 0.5, 0}; // needs 25 of each half
+        tile.estimates[1] = {256, V3d(256), 8, 0};   // needs 400
+    }
+    plan.decide();
+    for (const TileState& tile : states.tiles) {
+        EXPECT_EQ(tile.counts.counts[1], 100u);
+        EXPECT_EQ(tile.counts.counts[0], undecided);
+    }
+    EXPECT_FALSE(plan.judges(0, 0));
+    EXPECT_TRUE(plan.judges(0, 1));
+    states.level = 500;
+    plan.decide();
+    EXPECT_TRUE(plan.finished());
+    EXPECT_EQ(states.tiles[0].counts.counts, (std::array<uint32_t, 2>{500, 100}));
+}
+
+TEST(Adaptive, GivesTilesByTheRootOfTheirVarianceAndLooksAround)
+{
+    TileStates states;
+    states.tiles.resize(5);
+    AdaptivePlan plan(states, 5, 0.05);
+    const double variances[] = {0, 1, 1, 0, 0};
+    for (size_t i = 0; i < 5; ++i) {
+        for (TileEstimate& estimate : states.tiles[i].estimates) estimate = {256, V3d(256), variances[i], 0};
+    }
+    states.level = AdaptivePlan::least_samples(0.05);
+    plan.decide();
+    EXPECT_TRUE(states.tiles[0].counts.going()) << "a quiet tile beside a noisy one";
+    EXPECT_TRUE(states.tiles[3].counts.going());
+    EXPECT_FALSE(states.tiles[4].counts.going()) << "nothing there nor around";
+}
+
+TEST(Adaptive, IsTheSamePictureWithAnyThreadsAndResumed)
+{
+    const TemporaryFolder folder;
+    const std::string scene = standard_scene().write(folder);
+    const auto part = [&](int threads, double timeout, bool resume, uint32_t spp) {
+        return render_picture(scene, [&](RenderJob& job) {
+            job.spp = spp;
+            job.threads = threads;
+            job.options.error = 0.2;
+            job.options.timeout = timeout;
+            job.resume = resume;
+        });
+    };
+    const Picture whole = part(1, 0, false, 100000);
+    EXPECT_LT(whole.numbers.at("relativeError"), 0.25);
+    EXPECT_GT(whole.numbers.at("worstTileError"), whole.numbers.at("relativeError"));
+    const auto& samples = whole.integers.at("samples");
+    EXPECT_GT(*std::ranges::max_element(samples), *std::ranges::min_element(samples));
+    EXPECT_EQ(difference(part(2, 0, false, 100000), whole), "");
+    EXPECT_EQ(part(2, 1e-9, false, 100000).numbers.at("spp"), 2);
+    const std::filesystem::path checkpoint = folder.path("out.exr.checkpoint");
+    for (int i = 0; i < 4; ++i) part(1, 0.02, true, 100000);
+    if (std::filesystem::exists(checkpoint)) {
+        EXPECT_TRUE(input_error_of([&] { render_picture(scene, [](RenderJob& job) { job.resume = true; }); })) << "a picture without an error";
+    }
+    EXPECT_EQ(difference(part(1, 0, true, 100000), whole), "");
+    EXPECT_FALSE(std::filesystem::exists(checkpoint));
+    const Picture limited = part(1, 0, false, 21);
+    EXPECT_EQ(*std::ranges::max_element(limited.integers.at("samples")), 20u) << "both halves alike";
+}
+
+} // namespace
+} // namespace scree
