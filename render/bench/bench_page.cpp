@@ -45,12 +45,12 @@ std::string error_section(const BenchResult& result)
     for (const MethodResult& m : result.methods) {
         const ErrorEstimate& e = m.estimate;
         rows.push_back({m.name, std::to_string(m.samples), seconds_words(m.time.processor), root_words(e.noise.value), seconds_words(m.time_to_unit_variance()), error_words(e),
-                        fmt::format("{:.2e}", e.squared_error.value), bias_words(e.squared_bias), bias_words(e.smooth_bias), color_words(e.color[0]), color_words(e.color[1]), color_words(e.color[2]), fmt::format("{:.3f}", mean_flip(m.flip))});
+                        fmt::format("{:.2e}", e.squared_error.value), bias_words(e.squared_bias), bias_words(e.smooth_bias), colors_words(e.color), fmt::format("{:.3f}", mean_flip(m.flip))});
     }
     return page_section("Error", "Errors are relative, root mean square over pixels. Noise and bias are told apart by two halves of each picture that share no sample; a bias that is no larger than "
                             "what chance brings is called not measured, with the most that it can be (95 %). Time to unit variance is noise squared times processor time: the less, the faster. "
                             "An error below the noise of the reference says no more than that. Colours: of the picture's mean, with one standard error.",
-                   html_table({"method", "spp", "processor time", "noise", "time to unit variance", "error", "MRSE", "bias", "bias of squares", "red", "green", "blue", "FLIP"}, rows));
+                   html_table({"method", "spp", "processor time", "noise", "unit variance", "error", "MRSE", "bias", "bias of squares", "mean colour R G B, %", "FLIP"}, rows));
 }
 
 std::string cost_section(const BenchResult& result)

@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-
 namespace scree {
 
 namespace {
@@ -48,7 +46,8 @@ std::string table_of(const BenchResult& result)
     if (!result.methods.empty()) {
         const ReferencePicture& r = result.reference;
         const std::string noise = r.picture.has_noise() ? root_words(result.methods.front().estimate.reference_noise.value) : "not known";
-        text += fmt::format("  reference: {}, {} samples a pixel, {} of processors; its noise {}, FLIP of its halves {:.3f}\n", r.name, r.samples, seconds_words(r.processor_seconds), noise, result.reference_flip);
+        text += fmt::format("  reference: {}, {} samples a pixel, {} of processors; its noise {}{}\n", r.name, r.samples, seconds_words(r.processor_seconds), noise,
+                            r.picture.halved ? fmt::format(", FLIP of its halves {:.3f}", result.reference_flip) : "");
     }
     std::vector<std::vector<std::string>> rows{{"method", "spp", "set up", "processors", "noise", "unit var.", "error", "bias (95 %)", "bias of 8x8", "mean colour R G B, %", "FLIP", "rays/s", "events/s", "shells/s", "memory"}};
     for (const MethodResult& m : result.methods) {
@@ -57,11 +56,12 @@ std::string table_of(const BenchResult& result)
         const auto per_second = [&](uint64_t n) { return n > 0 ? count_words(rate(n, m)) : "-"; };
         rows.push_back({m.name, std::to_string(m.samples), seconds_words(m.setup.read + m.setup.precompute + m.setup.build), seconds_words(m.time.processor),
                         root_words(e.noise.value), seconds_words(m.time_to_unit_variance()), error_words(e), bias_words(e.squared_bias), bias_words(e.smooth_bias),
-                        fmt::format("{:+.2f} {:+.2f} {:+.2f} +- {:.2f}", 100 * e.color[0].value, 100 * e.color[1].value, 100 * e.color[2].value, 100 * std::max({e.color[0].error, e.color[1].error, e.color[2].error})),
+                        colors_words(e.color),
                         fmt::format("{:.3f}", mean_flip(m.flip)), per_second(s.segments + s.shadow_rays), per_second(s.events), per_second(s.shells), bytes_words(m.memory)});
     }
     text += text_table(rows);
     for (const MethodResult& m : result.methods) {
+        for (const std::string& warning : m.warnings) text += fmt::format("  {}: note: {}\n", m.name, warning);
         if (m.statistics.non_finite > 0) text += fmt::format("  {}: {} samples were not finite and are left out\n", m.name, m.statistics.non_finite);
     }
     return text;

@@ -13,6 +13,9 @@ namespace {
 
 constexpr int levels = 7; // slices double: a picture is looked at after 1/64, 1/32, ... and all of its time
 
+/// Seeds apart from each other and from the one that `scree render` has with the same --seed: which: 0 methods, 1 reference.
+uint64_t seed_of(const BenchJob& job, uint64_t which) { return mix64(mix64(job.scene.options.seed + 0x9e3779b97f4a7c15ull) + which); }
+
 std::vector<V3d> means_of(const Film& film)
 {
     std::vector<V3d> means;
@@ -53,8 +56,7 @@ ReferencePicture find_reference(const BenchJob& job, double threads, const Progr
         const SceneDescription scene = load_scene(job.scene);
         return read_reference(job.reference, scene.film.width, scene.film.height);
     }
-    const uint64_t seed = mix64(~job.scene.options.seed); // shares no sample with the methods
-    MethodRun run(job, job.reference_method, seed, 2, progress);
+    MethodRun run(job, job.reference_method, seed_of(job, 1), 2, progress); // shares no sample with the methods
     return render_reference(run, job.folder / "reference.exr", job.scene.options.seed, job.reference_seconds * threads, progress);
 }
 
@@ -73,7 +75,7 @@ BenchResult run_bench(const BenchJob& job, const Progress& progress)
     if (reference.halved) result.reference_flip = mean_flip(flip_difference(screen_picture(reference, reference.a), screen_picture(reference, reference.b)));
 
     std::vector<std::unique_ptr<MethodRun>> runs;
-    for (const BenchMethod& method : job.methods) runs.push_back(std::make_unique<MethodRun>(job, method, mix64(job.scene.options.seed), job.seeds, progress));
+    for (const BenchMethod& method : job.methods) runs.push_back(std::make_unique<MethodRun>(job, method, seed_of(job, 0), job.seeds, progress));
     result.scene_hash = runs.front()->scene_hash();
 
     std::vector<std::vector<ConvergencePoint>> points(runs.size());

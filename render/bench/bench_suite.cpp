@@ -26,7 +26,7 @@ BenchJob read_job(const JsonValue& json, double scale)
     job.title = name.string();
     const bool plain = std::ranges::all_of(job.title, [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; });
     if (job.title.empty() || !plain) name.fail("letters, digits, - and _: files are named after it");
-    job.scene.scene = object.require("scene").path();
+    job.scene.scene = object.require("scene").path().lexically_normal();
     if (const auto frame = object.find("frame")) job.frame = static_cast<size_t>(frame->integer(0, 1000000000));
     if (const auto size = object.find("size")) {
         const auto sides = size->array(2, 2);

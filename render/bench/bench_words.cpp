@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace scree {
@@ -21,11 +22,17 @@ std::string root_words(double squared) { return percent(squared) + " %"; }
 
 std::string bias_words(const Measured& squared_bias)
 {
-    if (!squared_bias.is_above_zero()) return fmt::format("not measured (< {} %)", percent(squared_bias.high()));
+    if (!std::isfinite(squared_bias.error)) return "not measured (nor is the reference's noise)";
+    if (!squared_bias.is_above_zero()) return fmt::format("not measured (< {} %)", percent(std::max(0.0, squared_bias.value) + 1.96 * squared_bias.error));
     return fmt::format("{} % ({} to {})", percent(squared_bias.value), percent(squared_bias.low()), percent(squared_bias.high()));
 }
 
 std::string color_words(const Measured& color) { return fmt::format("{:+.2f} +- {:.2f} %", 100 * color.value, 100 * color.error); }
+
+std::string colors_words(const std::array<Measured, 3>& c)
+{
+    return fmt::format("{:+.2f} {:+.2f} {:+.2f} +- {:.2f}", 100 * c[0].value, 100 * c[1].value, 100 * c[2].value, 100 * std::max({c[0].error, c[1].error, c[2].error}));
+}
 
 std::string error_words(const ErrorEstimate& estimate)
 {

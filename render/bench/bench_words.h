@@ -12,6 +12,8 @@ namespace scree {
 std::string bias_words(const Measured& squared_bias);
 /// "+0.31 +- 0.12 %" of a channel.
 std::string color_words(const Measured& color);
+/// "+0.31 -0.02 +0.10 +- 0.12" per cent of red, green and blue, with the largest of their standard errors.
+std::string colors_words(const std::array<Measured, 3>& colors);
 /// The relative error in per cent, and where the reference itself is no better: "< 1.3 % (the reference's noise)".
 std::string error_words(const ErrorEstimate& estimate);
 /// "1.3 %" of a squared number.

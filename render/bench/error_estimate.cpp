@@ -2,6 +2,8 @@
 
 #include "render/film/relative_error.h"
 
+#include <limits>
+
 namespace scree {
 
 namespace {
@@ -49,6 +51,7 @@ std::vector<V3d> surroundings(const HalfPictures& picture)
 /// As estimate_error says.
 Measured squared_bias(const HalfPictures& picture, const HalfPictures& reference)
 {
+    if (!reference.has_noise()) return {0, std::numeric_limits<double>::infinity()};
     const RelativeError relative(mean_radiance(reference));
     const std::vector<V3d> around = surroundings(reference);
     Mean bias;

@@ -110,7 +110,7 @@ ReferencePicture read_reference(const std::filesystem::path& path, int width, in
 ReferencePicture render_reference(MethodRun& method, const std::filesystem::path& path, uint64_t seed, double processor_seconds, const Progress& progress)
 {
     const std::string key = fmt::format("{:016x} {} {} {}", method.scene_hash(), method.plan_name(), seed, SCREE_VERSION);
-    double before = 0;
+    double before = 0, asked = 0; // seconds of processors: taken, and what they were to be (slices end with whole samples)
     if (std::filesystem::exists(path)) {
         try {
             const ExrPlanes file = read_exr_planes(path);
@@ -120,24 +120,26 @@ ReferencePicture render_reference(MethodRun& method, const std::filesystem::path
             if (same_size && kept->second == key) {
                 for (size_t h = 0; h < 2; ++h) method.restore(h, film_of(file, half_names[h]));
                 before = file.numbers.at("processorSeconds");
+                asked = file.numbers.at("secondsAsked");
             }
         } catch (const std::out_of_range&) {
             throw InputError(path.string(), "a reference with channels missing", "a whole one", "remove it");
         }
     }
-    const auto save = [&] {
+    constexpr int slices = 8;
+    const auto save = [&](int slice) {
         ExrPlanes file = planes_of(method);
         const HalfPictures halves = make_halves(method.films());
         file.texts = {{"software", "Scree"}, {"version", SCREE_VERSION}, {"integrator", method.plan_name()}, {"referenceKey", key}};
-        file.numbers = {{"processorSeconds", before + method.total_time().processor}, {"spp", static_cast<double>(method.total_samples())}, {"shareOfA", halves.share}};
+        file.numbers = {{"processorSeconds", before + method.total_time().processor},
+                        {"secondsAsked", before + (processor_seconds - before) * slice / slices},
+                        {"spp", static_cast<double>(method.total_samples())}, {"shareOfA", halves.share}};
         write_exr_planes(path, file);
     };
     // By halves in turn, in slices, so that little is lost when it is interrupted.
-    constexpr int slices = 8;
-    constexpr double enough = 0.95; // of the time asked for: slices end with whole samples
-    for (int slice = 1; slice <= slices && before < enough * processor_seconds; ++slice) {
+    for (int slice = 1; slice <= slices && asked < processor_seconds && before < processor_seconds; ++slice) {
         for (size_t h = 0; h < 2; ++h) method.render_until(h, 0.5 * (processor_seconds - before) * slice / slices, progress);
-        if (slice == slices || slice % 4 == 0) save();
+        if (slice == slices || slice % 4 == 0) save(slice);
         progress.update("reference", static_cast<double>(slice) / slices);
     }
     return {make_halves(method.films()), method.name(), before + method.total_time().processor, method.total_samples()};

@@ -118,6 +118,20 @@ TEST_F(BenchCommand, TakesAPictureAsReference)
     EXPECT_THAT(wrong_, HasSubstr("24x18"));
 }
 
+TEST_F(BenchCommand, SharesNoSampleWithAPictureOfTheSameSeed)
+{
+    render_picture(scene_, [](RenderJob& job) {
+        job.size = {24, 18};
+        job.spp = 64;
+        job.aov = {Aov::variance};
+        job.integrator = IntegratorKind::ept;
+    });
+    run({scene_, "-o", path("out"), "--integrators", "ept", "--size", "24x18", "--time", "0.5", "--reference", path("out.exr")});
+    EXPECT_EQ(wrong_, "");
+    const json bias = json::parse(read_bytes(folder_.path("out/bench.json")))["methods"][0]["squared_bias"];
+    EXPECT_LT(std::abs(bias["value"].get<double>()), 4 * bias["standard_error"].get<double>());
+}
+
 TEST_F(BenchCommand, ComplainsClearly)
 {
     const auto complaint = [&](const std::vector<std::string>& arguments) {

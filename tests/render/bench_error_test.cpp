@@ -139,6 +139,17 @@ TEST(ErrorEstimate, KnowsWhenTheReferenceIsNoBetter)
     EXPECT_FALSE(estimate_error(picture_of(1, 0.2, of), picture_of(1, 0.1, of)).is_below_reference());
 }
 
+TEST(ErrorEstimate, ClaimsNoBiasAgainstAReferenceOfUnknownNoise)
+{
+    Noise of{std::mt19937_64(6)};
+    HalfPictures reference = picture_of(1.2, 0.1, of);
+    reference.b = reference.a;
+    reference.halved = false;
+    const ErrorEstimate e = estimate_error(picture_of(1, 0.1, of), reference);
+    EXPECT_FALSE(e.squared_bias.is_above_zero());
+    EXPECT_FALSE(std::isfinite(e.squared_bias.error));
+}
+
 TEST(HalfPictures, WeighsHalvesByTheirSamples)
 {
     std::vector<Film> films(3, Film(1, 1, 0, 0, 1, 1));
