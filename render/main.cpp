@@ -3,6 +3,7 @@
 #include "ingest/support/error.h"
 #include "mixtures/mixture_command.h"
 #include "packing/pack_command.h"
+#include "render/bench/bench_command.h"
 #include "render/medium_command.h"
 #include "render/grains/grains_command.h"
 #include "render/render_command.h"
@@ -22,6 +23,7 @@ int main(int argc, char** argv)
     scree::add_mixture_command(app);
     scree::add_pack_command(app);
     scree::add_grains_command(app);
+    scree::add_bench_command(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::RuntimeError& status) {

@@ -1,6 +1,7 @@
 #include "render/render_command.h"
 
 #include "ingest/support/error.h"
+#include "render/option_values.h"
 #include "render/render_job.h"
 
 #include <CLI/CLI.hpp>
@@ -63,10 +64,7 @@ struct Arguments {
 void take_over(Arguments& a)
 {
     RenderJob& job = a.job;
-    if (!a.size.empty()) {
-        const auto n = split_whole_numbers(a.size, 'x', 2, 1, 65536, "--size", "WIDTHxHEIGHT, e.g. 640x480");
-        job.size = {static_cast<int>(n[0]), static_cast<int>(n[1])};
-    }
+    if (!a.size.empty()) job.size = parse_picture_size(a.size);
     if (!a.crop.empty()) {
         const auto n = split_numbers(a.crop, ',', 4, "--cropwindow", "x0,x1,y0,y1 in 0..1");
         if (n[0] < 0 || n[1] > 1 || n[0] >= n[1] || n[2] < 0 || n[3] > 1 || n[2] >= n[3]) {
@@ -92,11 +90,7 @@ void take_over(Arguments& a)
         if (n[0] > 65535 || n[1] > 65535) throw InputError("--debug-sample", "'" + a.debug + "'", "a pixel of the picture");
         job.debug_sample = SamplePlace{static_cast<int>(n[0]), static_cast<int>(n[1]), static_cast<uint32_t>(n[2])};
     }
-    for (const std::string& item : a.overrides) {
-        const size_t equals = item.find('=');
-        if (equals == std::string::npos || equals == 0) throw InputError("-D", "'" + item + "'", "key=value, e.g. camera.fov=40");
-        job.overrides.emplace_back(item.substr(0, equals), item.substr(equals + 1));
-    }
+    for (const std::string& item : a.overrides) job.overrides.push_back(parse_override(item));
     for (const std::string& name : a.aov) {
         const auto it = std::find(aov_names.begin(), aov_names.end(), name);
         if (it == aov_names.end()) {

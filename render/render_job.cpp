@@ -3,13 +3,12 @@
 #include "ingest/support/atomic_file.h"
 #include "ingest/support/console_progress.h"
 #include "ingest/support/error.h"
-#include "ingest/support/json.h"
 #include "mixtures/hash.h"
 #include "render/film/checkpoint.h"
 #include "render/film/exr_output.h"
 #include "render/interrupt.h"
 #include "render/job_report.h"
-#include "render/scene/world_builder.h"
+#include "render/render_setup.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -65,17 +64,6 @@ Film make_film(const RenderJob& job, const FilmDescription& film)
         throw InputError(job.crop ? "--cropwindow" : "--pixelbounds", "no pixel inside", fmt::format("part of the {}x{} picture", w, h));
     }
     return Film(w, h, x0, y0, x1, y1);
-}
-
-Camera make_camera(const SceneDescription& scene, const RenderSpace& space)
-{
-    CameraDescription c = scene.camera;
-    c.origin = space.point(c.origin);
-    c.target = space.point(c.target);
-    c.width = space.length(c.width);
-    c.aperture = space.length(c.aperture);
-    c.focus = space.length(c.focus);
-    return Camera(c, scene.film.width, scene.film.height);
 }
 
 PictureMetadata make_metadata(const RenderJob& job, const WorldBuilder& builder, const World& world, const Camera& camera,
@@ -172,27 +160,6 @@ public:
     }
 
 private:
-    static SceneDescription load_scene(const RenderJob& job)
-    {
-        JsonDocument document = JsonDocument::load(job.scene);
-        for (const auto& [path, value] : job.overrides) document.override_value(path, value);
-        SceneDescription scene = read_scene(document, job.scene);
-        if (job.size) std::tie(scene.film.width, scene.film.height) = *job.size;
-        for (const Aov aov : job.aov) {
-            if (std::find(scene.film.aov.begin(), scene.film.aov.end(), aov) == scene.film.aov.end()) scene.film.aov.push_back(aov);
-        }
-        IntegratorDescription& integrator = scene.integrator;
-        if (job.max_depth > 0) integrator.max_depth = job.max_depth;
-        integrator.kind = job.integrator.value_or(integrator.kind);
-        integrator.accuracy = job.accuracy.value_or(integrator.accuracy);
-        if (job.explicit_grains) integrator.explicit_grains = job.explicit_grains;
-        if (job.grain_depth) integrator.grain_depth = job.grain_depth;
-        integrator.medium_form = job.medium_form.value_or(integrator.medium_form);
-        integrator.stf_form = job.stf_form.value_or(integrator.stf_form);
-        if (job.shells) integrator.shells = job.shells;
-        return scene;
-    }
-
     void run_frame(size_t frame)
     {
         const bool many = range_.first != range_.last;
@@ -215,31 +182,18 @@ private:
         FrameReport report;
         report.frame = frame;
         report.name = builder_.frame_name(frame);
-        report.parts = all_parts(builder_, *world);
-        const auto before = builder_.device()->bytes();
-        const auto build_start = std::chrono::steady_clock::now();
-        const Tracer tracer(builder_.device(), *world);
-        const auto built = std::chrono::steady_clock::now();
-        report.parts.push_back({"acceleration structure", true, "Embree", std::chrono::duration<double>(built - build_start).count(),
-                                static_cast<uint64_t>(std::max<int64_t>(0, builder_.device()->bytes() - before))});
-        report.setup_seconds = std::chrono::duration<double>(built - start).count();
+        const RenderSetup setup(builder_, world, job_);
+        report.parts = setup.parts();
+        report.setup_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         report.grains = world->grain_count() + world->replaced_grains;
 
-        const Camera camera = make_camera(scene_, world->space);
-        RenderOptions options = job_.options;
-        options.path.max_depth = scene_.integrator.max_depth;
-        const TransportPlan& plan = builder_.plan();
-        if (plan.has_proxies()) options.path.explicit_grains = plan.explicit_grains;
-        const PixelSize pixel = pixel_size(scene_.camera, scene_.film);
-        options.path.resolved = {plan.least_pixels * world->space.length(pixel.width), plan.least_pixels * pixel.slope};
-        if (job_.spp) options.spp = *job_.spp;
-        else if (options.timeout > 0 || options.error > 0) options.spp = 1u << 30;
+        const RenderOptions& options = setup.options();
         if (job_.debug_sample) {
             if (job_.debug_sample->x >= scene_.film.width || job_.debug_sample->y >= scene_.film.height) {
                 throw InputError("--debug-sample", fmt::format("pixel {},{}", job_.debug_sample->x, job_.debug_sample->y),
                                  fmt::format("a pixel of the {}x{} picture", scene_.film.width, scene_.film.height));
             }
-            fmt::print("{}", debug_text(*world, tracer, camera, scene_.film.filter, *job_.debug_sample, options));
+            fmt::print("{}", debug_text(*world, setup.tracer(), setup.camera(), setup.filter(), *job_.debug_sample, options));
             return;
         }
         Film film = make_film(job_, scene_.film);
@@ -250,9 +204,9 @@ private:
         const CheckpointKey key{mix64(builder_.scene_hash() ^ estimator ^ std::bit_cast<uint64_t>(options.error)), options.seed};
         if (job_.resume && std::filesystem::exists(checkpoint)) read_checkpoint(checkpoint, film, key);
 
-        report.statistics = render(*world, tracer, camera, scene_.film.filter, film, options, progress);
+        report.statistics = render(*world, setup.tracer(), setup.camera(), setup.filter(), film, options, progress);
         interrupted_ = report.statistics.cancelled;
-        const PictureMetadata metadata = make_metadata(job_, builder_, *world, camera, frame, report.statistics);
+        const PictureMetadata metadata = make_metadata(job_, builder_, *world, setup.camera(), frame, report.statistics);
         for (const std::string& output : outputs_) {
             const std::string path = frame_path(output, frame, many);
             if (is_exr(path)) write_exr(path, film, scene_.film.aov, metadata);

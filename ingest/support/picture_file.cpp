@@ -60,13 +60,19 @@ PictureFile read_picture_file(const std::filesystem::path& path)
 
 bool can_write_picture_file(const std::filesystem::path& path) { return module().can_write(path.c_str()); }
 
+std::string encode_picture(const std::filesystem::path& name, int width, int height, std::span<const float> rgb)
+{
+    std::string bytes, error;
+    if (!module().encode(name.c_str(), width, height, rgb.data(), bytes, error)) {
+        throw InputError(name.string(), error, "a picture that the format can hold");
+    }
+    return bytes;
+}
+
 void write_picture_file(const std::filesystem::path& path, int width, int height, std::span<const float> rgb)
 {
     // Through memory: on a full disk the PNG writer reports nothing, and the JPEG library ends the program.
-    std::string bytes, error;
-    if (!module().encode(path.c_str(), width, height, rgb.data(), bytes, error)) {
-        throw InputError(path.string(), error, "a picture that the format can hold");
-    }
+    const std::string bytes = encode_picture(path, width, height, rgb);
     AtomicFile file(path);
     std::ofstream out(file.temporary(), std::ios::binary);
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace scree {
@@ -24,6 +25,9 @@ PictureFile read_picture_file(const std::filesystem::path& path);
 
 /// Whether write_picture_file knows the format of this extension.
 bool can_write_picture_file(const std::filesystem::path& path);
+
+/// The bytes of the file that write_picture_file would write under this name. Throws InputError.
+std::string encode_picture(const std::filesystem::path& name, int width, int height, std::span<const float> rgb);
 
 /// Writes an RGB picture (PNG, JPEG, ... by the extension), 8-bit where the format has it; rgb: 3 width height values, 0 to 1,
 /// as the screen shows them. The file appears whole or not at all. Throws InputError.

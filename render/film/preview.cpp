@@ -2,22 +2,9 @@
 
 #include "ingest/support/error.h"
 #include "ingest/support/picture_file.h"
-
-#include <algorithm>
-#include <cmath>
+#include "render/film/srgb.h"
 
 namespace scree {
-
-namespace {
-
-/// IEC 61966-2-1.
-float to_srgb(float x)
-{
-    x = std::clamp(x, 0.0f, 1.0f);
-    return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
-}
-
-} // namespace
 
 void check_preview_format(const std::filesystem::path& path)
 {

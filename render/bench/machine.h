@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+namespace scree {
+
+/// Where and when something was measured.
+struct Machine {
+    std::string processor; ///< model
+    int cores = 0;         ///< that this program may use
+    int threads = 0;       ///< that it did use
+    std::string date;      ///< 2026-11-22, UTC
+};
+
+/// threads: 0: all cores.
+Machine this_machine(int threads);
+
+} // namespace scree

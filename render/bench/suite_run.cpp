@@ -1,0 +1,69 @@
+#include "render/bench/suite_run.h"
+
+#include "ingest/support/atomic_file.h"
+#include "ingest/support/error.h"
+#include "render/bench/bench_page.h"
+#include "render/bench/bench_report.h"
+#include "render/bench/bench_run.h"
+#include "render/bench/suite_report.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace scree {
+
+namespace {
+
+void make_folder(const std::filesystem::path& folder, const std::vector<std::string>& files)
+{
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (!std::filesystem::is_directory(folder)) throw InputError("--output", "'" + folder.string() + "' cannot be made", "a folder that can be written");
+    for (const std::string& name : files) AtomicFile(folder / name); // can be written: better told now than after the work
+}
+
+std::string text_of(const std::filesystem::path& file)
+{
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw InputError(file.string(), "a file that cannot be read", "a text with the two marks of `scree bench`");
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+} // namespace
+
+BenchResult run_and_write(const BenchJob& job, const Progress& progress)
+{
+    make_folder(job.folder, {"bench.json", "index.html"});
+    BenchResult result = run_bench(job, progress);
+    write_whole(job.folder / "bench.json", json_of(result));
+    write_whole(job.folder / "index.html", page_of(result));
+    return result;
+}
+
+void run_suite(const std::vector<BenchJob>& jobs, const std::filesystem::path& folder, const std::filesystem::path& readme, const Progress& progress)
+{
+    make_folder(folder, {"index.html", "README.md", "suite.json"});
+    if (!readme.empty()) with_block(text_of(readme), "", readme.string());
+    const Stopwatch watch;
+    std::vector<BenchResult> results;
+    for (BenchJob job : jobs) {
+        job.folder = folder / "details" / job.title;
+        progress.update(job.title, static_cast<double>(results.size()) / static_cast<double>(jobs.size()));
+        BenchResult result = run_and_write(job, progress);
+        write_whole(folder / (job.title + ".svg"), svg_of(convergence_plot(result)));
+        result.reference.picture = {result.width(), result.height(), {}, {}, {}, result.reference.picture.share, result.reference.picture.halved}; // shown; only its size is asked for from here on
+        for (MethodResult& m : result.methods) m.picture = {};
+        results.push_back(std::move(result));
+    }
+    const double seconds = watch.seconds();
+    write_whole(folder / "suite.json", suite_json(results, seconds));
+    write_whole(folder / "index.html", suite_page(results, seconds));
+    write_whole(folder / "README.md", "# Time against error\n\nMade by `scree bench --suite`. " + suite_markdown(results, seconds, true));
+    if (!readme.empty()) write_whole(readme, with_block(text_of(readme), suite_markdown(results, seconds, false), readme.string()));
+    progress.update("suite", 1);
+    fmt::print("{}  page: {}\n", suite_table(results, seconds), (folder / "index.html").string());
+}
+
+} // namespace scree

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree {
+
+/// Linear light as a screen encodes it, cut to 0..1: IEC 61966-2-1.
+inline float to_srgb(float x)
+{
+    x = std::clamp(x, 0.0f, 1.0f);
+    return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
+}
+
+} // namespace scree

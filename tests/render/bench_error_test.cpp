@@ -1,0 +1,166 @@
+// Bias and noise told apart by halves: made-up pictures whose truth, bias and noise are known.
+
+#include "render/bench/error_estimate.h"
+#include "render/film/relative_error.h"
+#include "tests/builders/statistics.h"
+
+#include <gmock/gmock.h>
+
+#include <random>
+
+namespace scree {
+namespace {
+
+constexpr int width = 48, height = 40;
+constexpr double repeats = 200;
+
+/// Colours between dark and bright, with an edge and a black corner.
+std::vector<V3d> truth()
+{
+    std::vector<V3d> pixels;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const double u = double(x) / width, v = double(y) / height;
+            pixels.push_back(u < 0.1 && v < 0.1 ? V3d(0) : V3d(0.1 + u, 0.3 + 0.5 * v, x > 20 ? 0.9 : 0.2));
+        }
+    return pixels;
+}
+
+/// Noise of mean 0 and variance 1: with `skewed` long tails above, as paths have them.
+struct Noise {
+    std::mt19937_64 random;
+    bool skewed = false;
+    double operator()()
+    {
+        if (skewed) return std::exponential_distribution<double>(1)(random) - 1;
+        return std::normal_distribution<double>()(random);
+    }
+};
+
+/// A picture of two halves, of which each pixel deviates by `deviation` of the truth, and the whole is `factor` times as bright as it should be.
+HalfPictures picture_of(double factor, double deviation, Noise& noise)
+{
+    HalfPictures picture;
+    picture.width = width;
+    picture.height = height;
+    for (const V3d& t : truth()) {
+        for (std::vector<V3d>* half : {&picture.a, &picture.b}) {
+            half->push_back(factor * t * (V3d(1) + deviation * std::sqrt(2.0) * V3d(noise(), noise(), noise())));
+        }
+    }
+    return picture;
+}
+
+/// What the estimators measure when every pixel is wrong by this part of its truth.
+double relative_square(double deviation)
+{
+    HalfPictures exact{width, height, truth(), truth(), {}};
+    const RelativeError relative(mean_radiance(exact));
+    double sum = 0;
+    for (const V3d& t : exact.a) sum += relative.of(deviation * deviation * t.dot(t), t);
+    return sum / static_cast<double>(exact.size());
+}
+
+TEST(ErrorEstimate, FindsTheNoiseOfBothAndTheirErrorApart)
+{
+    Estimate noise, reference_noise, error;
+    Noise of{std::mt19937_64(1)};
+    for (int k = 0; k < repeats; ++k) {
+        const ErrorEstimate e = estimate_error(picture_of(1, 0.2, of), picture_of(1, 0.05, of));
+        noise.add(e.noise.value);
+        reference_noise.add(e.reference_noise.value);
+        error.add(e.squared_error.value);
+    }
+    // The reference's own noise moves what it is relative to by at most some of its square.
+    EXPECT_NEAR(noise.mean(), relative_square(0.2), 4 * noise.standard_error() + 0.02 * relative_square(0.2));
+    EXPECT_NEAR(reference_noise.mean(), relative_square(0.05), 4 * reference_noise.standard_error() + 0.02 * relative_square(0.05));
+    EXPECT_NEAR(error.mean(), relative_square(0.2), 4 * error.standard_error() + 0.02 * relative_square(0.2));
+}
+
+class Unbiased : public testing::TestWithParam<bool> {};
+
+TEST_P(Unbiased, HasABiasOfNothingWithinItsInterval)
+{
+    Estimate bias;
+    int covered = 0, claimed = 0;
+    Noise of{std::mt19937_64(2), GetParam()};
+    for (int k = 0; k < repeats; ++k) {
+        const Measured b = estimate_error(picture_of(1, 0.3, of), picture_of(1, 0.1, of)).squared_bias;
+        bias.add(b.value);
+        covered += b.low() <= 0 && 0 <= b.high();
+        claimed += b.is_above_zero();
+    }
+    EXPECT_LT(std::abs(bias.z(0)), 4);
+    EXPECT_GE(covered, 0.89 * repeats); // of 95 in 100, less four deviations
+    EXPECT_LE(claimed, 3);
+}
+INSTANTIATE_TEST_SUITE_P(Noises, Unbiased, testing::Bool());
+
+TEST_P(Unbiased, IsFoundBiasedWhenItIs)
+{
+    // Power: the squared bias is known to about the variance of a half over the root of the number of pixels, here 1e-3.
+    Estimate bias, color;
+    int claimed = 0, covered = 0;
+    Noise of{std::mt19937_64(3), GetParam()};
+    for (int k = 0; k < repeats; ++k) {
+        const ErrorEstimate e = estimate_error(picture_of(1.08, 0.15, of), picture_of(1, 0.05, of));
+        bias.add(e.squared_bias.value);
+        color.add(e.color[1].value);
+        claimed += e.squared_bias.is_above_zero();
+        covered += std::abs(e.color[1].value - 0.08) < 1.96 * e.color[1].error;
+    }
+    // Relative to what is around a pixel and not to itself: at the edge and the corner that is not quite the same.
+    EXPECT_NEAR(std::sqrt(bias.mean()), std::sqrt(relative_square(0.08)), 0.008);
+    EXPECT_NEAR(color.mean(), 0.08, 4 * color.standard_error());
+    EXPECT_GE(claimed, 0.95 * repeats);
+    EXPECT_GE(covered, 0.89 * repeats);
+}
+
+TEST_P(Unbiased, ShowsSmallBiasesInSquares)
+{
+    int claimed = 0, wrong = 0;
+    Estimate none;
+    Noise of{std::mt19937_64(5), GetParam()};
+    for (int k = 0; k < repeats; ++k) {
+        claimed += estimate_error(picture_of(1.03, 0.15, of), picture_of(1, 0.05, of)).smooth_bias.is_above_zero();
+        const Measured bias = estimate_error(picture_of(1, 0.15, of), picture_of(1, 0.05, of)).smooth_bias;
+        wrong += bias.is_above_zero();
+        none.add(bias.value);
+    }
+    EXPECT_GE(claimed, 0.9 * repeats);
+    EXPECT_LE(wrong, 4);
+    EXPECT_LT(std::abs(none.z(0)), 4);
+}
+
+TEST(ErrorEstimate, KnowsWhenTheReferenceIsNoBetter)
+{
+    Noise of{std::mt19937_64(4)};
+    EXPECT_TRUE(estimate_error(picture_of(1, 0.02, of), picture_of(1, 0.1, of)).is_below_reference());
+    EXPECT_FALSE(estimate_error(picture_of(1, 0.2, of), picture_of(1, 0.1, of)).is_below_reference());
+}
+
+TEST(ErrorEstimate, ClaimsNoBiasAgainstAReferenceOfUnknownNoise)
+{
+    Noise of{std::mt19937_64(6)};
+    HalfPictures reference = picture_of(1.2, 0.1, of);
+    reference.b = reference.a;
+    reference.halved = false;
+    const ErrorEstimate e = estimate_error(picture_of(1, 0.1, of), reference);
+    EXPECT_FALSE(e.squared_bias.is_above_zero());
+    EXPECT_FALSE(std::isfinite(e.squared_bias.error));
+}
+
+TEST(HalfPictures, WeighsHalvesByTheirSamples)
+{
+    std::vector<Film> films(3, Film(1, 1, 0, 0, 1, 1));
+    for (size_t f = 0; f < 3; ++f)
+        for (size_t s = 0; s <= f; ++s) films[f].at(0, 0).add(C3f(static_cast<float>(f)), {});
+    const HalfPictures picture = make_halves(films); // a: 0, 2, 2, 2; b: 1, 1
+    EXPECT_DOUBLE_EQ(picture.a[0].x, 1.5);
+    EXPECT_DOUBLE_EQ(picture.b[0].x, 1);
+    EXPECT_DOUBLE_EQ(picture.share, 4.0 / 6);
+    EXPECT_DOUBLE_EQ(picture.whole(0).x, 8.0 / 6);
+}
+
+} // namespace
+} // namespace scree
