@@ -1,23 +1,19 @@
 #include "render/gsdf/gsdf_file.h"
 
-#include "ingest/support/atomic_file.h"
-#include "ingest/support/error.h"
 #include "render/scene/content_hash.h"
+#include "render/table_file.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 
 namespace scree {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the file's numbers are little-endian");
 static_assert(sizeof(GsdfRecord) == 16 && sizeof(C3f) == 12);
 
 constexpr std::array<char, 8> magic{'S', 'C', 'R', 'E', 'E', 'G', 'S', 'D'};
+const std::string what = "a table of grain scattering";
 constexpr uint32_t version = 3; // also of what the numbers mean: count up when any of that changes
 
 /// What a file begins with. Then alpha0, density, first, records, weights follow as they lie in memory.
@@ -35,12 +31,7 @@ static_assert(std::is_trivially_copyable_v<Header>);
 template <class Data, class Each>
 void for_each_part(Data& data, const Each& each)
 {
-    const auto part = [&](auto& v) { each(v.data(), v.size() * sizeof(v[0])); };
-    part(data.alpha0);
-    part(data.density);
-    part(data.first);
-    part(data.records);
-    part(data.weights);
+    for_each_block(each, data.alpha0, data.density, data.first, data.records, data.weights);
 }
 
 uint64_t checksum_of(const Header& header, const Gsdf::Data& data)
@@ -58,33 +49,24 @@ void write_gsdf(const std::filesystem::path& file, const Gsdf& gsdf, const GsdfT
     const Gsdf::Data& data = gsdf.data();
     Header header{magic, version, Gsdf::alpha_bins, Gsdf::strata, Gsdf::cells, data.records.size(), data.weights.size(), 0, tag, data.quality};
     header.checksum = checksum_of(header, data);
-    AtomicFile output(file);
-    std::ofstream stream(output.temporary(), std::ios::binary);
-    stream.write(reinterpret_cast<const char*>(&header), sizeof header);
-    for_each_part(data, [&](const void* bytes, size_t size) { stream.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size)); });
-    stream.close();
-    if (!stream) throw InputError(file.string(), "a file that cannot be written", "room for a table of grain scattering");
-    output.commit();
+    TableFileWriter writer(file, what);
+    writer.add(header);
+    for_each_part(data, [&](const void* bytes, size_t size) { writer.add(bytes, size); });
+    writer.write();
 }
 
 StoredGsdf read_gsdf(const std::filesystem::path& file)
 {
-    const auto refuse = [&](const std::string& found) {
-        return InputError(file.string(), found, "a table of grain scattering written by this version of Scree", "remove it; it will be made again");
-    };
-    std::ifstream stream(file, std::ios::binary | std::ios::ate);
-    if (!stream) throw refuse("no file that can be read");
-    const auto size = static_cast<uint64_t>(stream.tellg());
-    stream.seekg(0);
-    Header header;
-    if (!stream.read(reinterpret_cast<char*>(&header), sizeof header) || header.magic != magic) throw refuse("something else");
+    TableFileReader reader(file, what);
+    const auto header = reader.read<Header>();
+    if (header.magic != magic) throw reader.refuse("something else");
     if (header.version != version || header.alpha_bins != Gsdf::alpha_bins || header.strata != Gsdf::strata || header.cells != Gsdf::cells) {
-        throw refuse("another version");
+        throw reader.refuse("another version");
     }
     constexpr size_t all = static_cast<size_t>(Gsdf::strata) * Gsdf::cells;
-    const uint64_t fixed = sizeof header + (Gsdf::alpha_bins + all) * sizeof(float) + (all + 1) * sizeof(uint32_t);
+    const uint64_t fixed = (Gsdf::alpha_bins + all) * sizeof(float) + (all + 1) * sizeof(uint32_t);
     const bool counts_fit = header.records < (1ull << 32) && (header.weights == 0 || header.weights == header.records);
-    if (!counts_fit || size != fixed + header.records * sizeof(GsdfRecord) + header.weights * sizeof(C3f)) throw refuse("a file of the wrong length");
+    if (!counts_fit || reader.left() != fixed + header.records * sizeof(GsdfRecord) + header.weights * sizeof(C3f)) throw reader.refuse("a file of the wrong length");
 
     Gsdf::Data data;
     data.alpha0.resize(Gsdf::alpha_bins);
@@ -93,15 +75,14 @@ StoredGsdf read_gsdf(const std::filesystem::path& file)
     data.records.resize(header.records);
     data.weights.resize(header.weights);
     data.quality = header.quality;
-    for_each_part(data, [&](void* bytes, size_t count) { stream.read(static_cast<char*>(bytes), static_cast<std::streamsize>(count)); });
-    if (!stream) throw refuse("a file that ends early");
-    if (checksum_of(header, data) != header.checksum) throw refuse("a damaged file: its checksum is wrong");
+    for_each_part(data, [&](void* bytes, size_t size) { reader.read(bytes, size); });
+    reader.finish(checksum_of(header, data), header.checksum);
     if (!std::ranges::is_sorted(data.first) || data.first.front() != 0 || data.first.back() != header.records) {
-        throw refuse("a damaged file: its records are not in order");
+        throw reader.refuse("a damaged file: its records are not in order");
     }
     for (size_t i = 0; i < all; ++i) {
         if (!(data.density[i] >= 0 && std::isfinite(data.density[i])) || (data.density[i] > 0 && data.first[i] == data.first[i + 1])) {
-            throw refuse("a damaged file: a direction without a density or without a record");
+            throw reader.refuse("a damaged file: a direction without a density or without a record");
         }
     }
     return {std::make_shared<const Gsdf>(std::move(data)), header.tag};

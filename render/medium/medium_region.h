@@ -3,6 +3,8 @@
 #include "render/medium/grid_medium.h"
 #include "render/medium/homogeneous_medium.h"
 
+#include <Imath/ImathBox.h>
+
 #include <array>
 #include <memory>
 #include <string>
@@ -22,6 +24,12 @@ struct MediumRegion {
     std::shared_ptr<const MediumShells> shells; ///< that light may go through in there, or null
     bool instead_of_grains = false; ///< the medium stands for the grains in there, which are not met
 
+    Imath::Box3d bounds() const
+    {
+        Imath::Box3d box;
+        for (const V3f& p : positions) box.extendBy(V3d(p));
+        return box;
+    }
     bool is_achromatic() const { return homogeneous ? homogeneous->is_achromatic() : grid->is_achromatic(); }
     /// The first scattering in t0 < t < t1 along o + t d.
     MediumEvent event(const V3d& o, const V3d& d, double t0, double t1, SpectralState& state, Sampler& sampler) const

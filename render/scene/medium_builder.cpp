@@ -32,13 +32,6 @@ uint64_t hash_file(const std::filesystem::path& file, uint64_t seed)
     return seed;
 }
 
-Imath::Box3d bounds_of_region(const MediumRegion& region)
-{
-    Imath::Box3d box;
-    for (const V3f& p : region.positions) box.extendBy(V3d(p));
-    return box;
-}
-
 } // namespace
 
 void MediumBuilder::refuse_overlaps(const World& world) const
@@ -47,7 +40,7 @@ void MediumBuilder::refuse_overlaps(const World& world) const
     for (size_t i = 0; i < world.regions.size(); ++i) {
         for (size_t j = 0; j < i; ++j) {
             const MediumRegion &a = world.regions[i], &b = world.regions[j];
-            const Imath::Box3d x = bounds_of_region(a), y = bounds_of_region(b);
+            const Imath::Box3d x = a.bounds(), y = b.bounds();
             bool overlap = true; // not only at a face
             for (int axis = 0; axis < 3; ++axis) overlap = overlap && x.min[axis] < y.max[axis] && y.min[axis] < x.max[axis];
             if (a.is_achromatic() || b.is_achromatic() || !overlap) continue;

@@ -36,13 +36,6 @@ std::vector<double> g_axis(double low, double high)
     return axis;
 }
 
-Imath::Box3d bounds_of(const MediumRegion& region)
-{
-    Imath::Box3d box;
-    for (const V3f& p : region.positions) box.extendBy(V3d(p));
-    return box;
-}
-
 } // namespace
 
 StfOptions stf_options(Accuracy accuracy)
@@ -100,7 +93,7 @@ void add_shells(StfForm form, double least, StfCache& cache, World& world, std::
         const Stopwatch watch;
         double sigma_t, albedo, g_low, g_high;
         std::unique_ptr<MediumPyramid> pyramid;
-        const Imath::Box3d box = bounds_of(region);
+        const Imath::Box3d box = region.bounds();
         if (region.homogeneous) {
             sigma_t = region.homogeneous->sigma_t().x;
             albedo = max_component(region.homogeneous->albedo());

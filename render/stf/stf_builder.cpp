@@ -75,6 +75,8 @@ void thin(const std::vector<Record>& records, const std::vector<double>& mass, u
     for (float& w : weights) w = static_cast<float>(w / weight_sum);
 }
 
+constexpr double most_cut = 1.25; ///< sum of tilted weights: beyond, there are too few records to tell how to tilt
+
 /// Tilts the weights of exits so that two means are exact, which the noise of walks puts off and larger shells would add up.
 ///
 /// Along any walk (1 - g) x + w (in mean free paths, w the direction) keeps its mean, and so does |x|^2 + 2 x.w / (1 - g) - 2 n / (1 - g) after n scatterings. So
@@ -107,11 +109,18 @@ void calibrate(double g, StfShell& shell)
         b0 -= w * along[i];
         b1 -= w * excess[i];
     }
-    const double determinant = a00 * a11 - a01 * a10, by_cosine = (b0 * a11 - b1 * a01) / determinant, by_events = (a00 * b1 - a10 * b0) / determinant;
+    const double determinant = a00 * a11 - a01 * a10;
+    if (!(std::abs(determinant) > 1e-6 * (std::abs(a00 * a11) + std::abs(a01 * a10)))) return; // the records do not tell the two apart
+    const double by_cosine = (b0 * a11 - b1 * a01) / determinant, by_events = (a00 * b1 - a10 * b0) / determinant;
+    std::vector<double> tilted(n);
+    double sum = 0; // 1, unless some are cut off at 0: then the means are only nearer to what they should be
     for (size_t i = 0; i < n; ++i) {
         const double tilt = 1 + by_cosine * (shell.exits[i].cos_t - cosine) + by_events * (shell.exits[i].events / events - 1);
-        shell.exit_weights[i] = static_cast<float>(shell.exit_weights[i] * std::max(0.0, tilt));
+        tilted[i] = shell.exit_weights[i] * std::max(0.0, tilt);
+        sum += tilted[i];
     }
+    if (!std::isfinite(sum) || sum > most_cut) return;
+    for (size_t i = 0; i < n; ++i) shell.exit_weights[i] = static_cast<float>(tilted[i] / sum);
 }
 
 StfShell make_shell(const PhaseFunction& phase, size_t number, std::span<const ShellSampler> smaller, const StfOptions& options, const Progress& progress)

@@ -22,21 +22,6 @@ uint64_t StfCache::key(double g, const PhaseTable* table) const
 
 std::filesystem::path StfCache::file(uint64_t key) const { return folder_ / fmt::format("stf-{:016x}.bin", key); }
 
-size_t StfCache::stored(double g, const std::shared_ptr<const PhaseTable>& table) const
-{
-    const uint64_t k = key(g, table.get());
-    if (const auto known = known_.find(k); known != known_.end()) return known->second->shells.size();
-    std::error_code none;
-    if (folder_.empty() || !std::filesystem::exists(file(k), none)) return 0;
-    try {
-        Stf stf;
-        read_stf(file(k), k, stf);
-        return stf.shells.size();
-    } catch (const InputError&) {
-        return 0;
-    }
-}
-
 StfCache::Found StfCache::find(double g, const std::shared_ptr<const PhaseTable>& table, size_t shells, const Progress& progress)
 {
     const uint64_t k = key(g, table.get());

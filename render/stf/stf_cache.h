@@ -22,8 +22,6 @@ public:
     };
     /// At least `shells` shells of g, or of a table if there is one. Throws Cancelled.
     Found find(double g, const std::shared_ptr<const PhaseTable>& table, size_t shells, const Progress& progress);
-    /// How many shells are at hand without work, in this run or in the folder.
-    size_t stored(double g, const std::shared_ptr<const PhaseTable>& table) const;
 
 private:
     uint64_t key(double g, const PhaseTable* table) const;
