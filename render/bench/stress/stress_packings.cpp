@@ -1,0 +1,102 @@
+// Packings without a grain, with one, and as full as they get; and paths of a million vertices through grains, media and a white room.
+
+#include "render/bench/stress/stress_run.h"
+#include "render/bench/stress/stress_scenes.h"
+
+#include <fmt/format.h>
+
+namespace scree {
+
+namespace {
+
+constexpr IntegratorKind all_kinds[] = {IntegratorKind::ept, IntegratorKind::ppt, IntegratorKind::automatic, IntegratorKind::vpt, IntegratorKind::stf};
+
+/// Every pixel with 1, in a surrounding of 1.
+StressFinding white(StressScene scene, const StressView& view, double allowed, const Progress& progress)
+{
+    add_constant(scene, C3f(1));
+    const StressPicture picture = StressStage(scene, {}, view, progress).render(view, progress);
+    StressFinding finding = compare_exactly(picture.film, 1, allowed);
+    finding.count(picture.statistics);
+    const double steps = static_cast<double>(picture.statistics.segments + picture.statistics.events);
+    finding.remark = fmt::format("{:.3g} segments and events a path, {} leaks", steps / static_cast<double>(std::max<uint64_t>(1, finding.paths)), finding.leaks);
+    return finding;
+}
+
+StressScene few_grains(const Material& material, uint64_t count)
+{
+    StressScene scene = empty_scene(16, 12, V3d(-3, -4, 2), V3d(0), 35);
+    add_type(scene, "grain", material);
+    scene.has_dump = true;
+    if (count > 0) scene.grains.push_back({V3d(0), 1, 0, {1, 0, 0, 0}});
+    return scene;
+}
+
+StressScene fcc(const Material& material, int cells)
+{
+    StressScene scene = empty_scene(16, 12, V3d(-3, -4, 2) * (cells * 1.6), V3d(0), 35);
+    add_type(scene, "grain", material);
+    for (const V3d& place : fcc_spheres(cells)) scene.grains.push_back({place, 1, 0, {1, 0, 0, 0}});
+    return scene;
+}
+
+} // namespace
+
+void add_packing_cases(StressRun& run)
+{
+    run.begin("packings", "lossless spheres in a surrounding of 1 with 1", "1e-5: the rounding of some 100 products of floats");
+    for (const IntegratorKind kind : all_kinds) {
+        const StressView view{.kind = kind, .accuracy = Accuracy::draft, .spp = 32};
+        const StressExtent extent = kind == IntegratorKind::ept ? StressExtent::quick : StressExtent::full;
+        run.add("no grain, " + name_of(kind), StressExtent::quick, [&] { return white(few_grains(glass_material(1.5), 0), view, 1e-5, run.progress()); });
+        run.add("one grain, " + name_of(kind), extent, [&] { return white(few_grains(glass_material(1.5), 1), view, 1e-5, run.progress()); });
+        run.add("2,916 touching spheres of glass, f 0.74, " + name_of(kind), extent, [&] { return white(fcc(glass_material(1.5), 9), view, 1e-5, run.progress()); });
+        run.add("2,916 touching white spheres, f 0.74, " + name_of(kind), extent, [&] { return white(fcc(lambert_material(C3f(1)), 9), view, 1e-5, run.progress()); });
+    }
+}
+
+void add_long_path_cases(StressRun& run)
+{
+    run.begin("long paths", "lossless things seen from deep within, in a surrounding of 1, with 1", "1e-5: a weight that no event changes is not rounded");
+    const auto from_within = [](StressScene scene, int width, int height) {
+        scene.description.camera.origin = V3d(0.001, 0.002, 0.003);
+        scene.description.camera.target = V3d(1, 0.3, 0.2);
+        scene.description.film.width = width;
+        scene.description.film.height = height;
+        return scene;
+    };
+    for (const IntegratorKind kind : {IntegratorKind::vpt, IntegratorKind::stf}) {
+        run.add("the middle of a cube of optical radius 1000, " + name_of(kind), StressExtent::full, [&] {
+            StressScene scene = from_within(empty_scene(1, 1, V3d(0), V3d(1, 0, 0), 35), 4, 4);
+            scene.meshes["cube.obj"] = cube_mesh(1);
+            add_medium(scene, "cube.obj", 1000, C3f(1), 0);
+            return white(scene, {.kind = kind, .accuracy = Accuracy::draft, .spp = 2}, 1e-5, run.progress());
+        });
+    }
+    for (const auto& [name, material] : {std::pair{"glass", glass_material(1.5)}, std::pair{"rough glass", glass_material(1.5, 0.5)}, std::pair{"white", lambert_material(C3f(1))}}) {
+        for (const IntegratorKind kind : {IntegratorKind::ept, IntegratorKind::ppt}) {
+            run.add(fmt::format("the middle of 10^8 spheres, {}, {}", name, name_of(kind)), StressExtent::full, [&] {
+                const StressScene scene = from_within(filled_scene(material, 0.002, run.progress()), 2, 2);
+                return white(scene, {.kind = kind, .accuracy = Accuracy::draft, .spp = 1}, 1e-5, run.progress());
+            });
+        }
+    }
+    run.add("a white room with a pin hole, ept", StressExtent::quick, [&] {
+        StressScene scene = from_within(empty_scene(1, 1, V3d(0), V3d(1, 0, 0), 35), 2, 2);
+        TriangleMesh room = cube_mesh(1); // of one of its triangles the hole takes a corner, 1e-6 of the walls
+        const std::array<uint32_t, 3> last = room.triangles.back();
+        room.triangles.pop_back();
+        const V3d a = room.positions[last[0]], b = room.positions[last[1]], c = room.positions[last[2]];
+        const auto n = static_cast<uint32_t>(room.positions.size());
+        constexpr double part = 0.0035; // of the edges at the corner a: a hole of part^2 of 2, of walls of 24
+        room.positions.push_back(a + part * (b - a));
+        room.positions.push_back(a + part * (c - a));
+        room.triangles.push_back({n, last[1], last[2]});
+        room.triangles.push_back({n, last[2], n + 1});
+        scene.meshes["room.obj"] = room;
+        scene.description.surfaces.push_back({"room.obj", lambert_material(C3f(1)), ""});
+        return white(scene, {.spp = 1}, 1e-5, run.progress());
+    });
+}
+
+} // namespace scree
