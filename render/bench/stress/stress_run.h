@@ -20,6 +20,7 @@ public:
     /// Does the case if it is asked for; an error of it is kept as its result. Throws Cancelled.
     void add(const std::string& name, StressExtent extent, const std::function<StressFinding()>& find);
 
+    /// What cases may show and stop on; their own stages are not shown.
     const Progress& progress() const { return progress_; }
     StressReport take() { return std::move(report_); }
 
