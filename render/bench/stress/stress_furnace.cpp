@@ -11,6 +11,24 @@ namespace {
 
 constexpr double float_paths = 1e-5;
 
+/// White from everywhere as two halves of a sky that are sampled, so that what scatters must weigh them right.
+StressFinding sampled_furnace(StressScene scene, const StressView& view, const Progress& progress)
+{
+    scene.description.lights.clear();
+    for (const double z : {-1.0, 1.0}) {
+        LightDescription half;
+        half.kind = LightDescription::Kind::distant;
+        half.direction = V3d(0.1, 0.2, 1) * z;
+        half.irradiance = C3f(static_cast<float>(pi));
+        half.angle = 180;
+        scene.description.lights.push_back(half);
+    }
+    const StressPicture picture = StressStage(scene, {}, view, progress).render(view, progress);
+    StressFinding finding = compare_truth(picture.film, std::vector<double>(picture.film.pixels().size(), 1), 4);
+    finding.count(picture.statistics);
+    return finding;
+}
+
 StressFinding furnace(StressScene scene, const StressView& view, double allowed, const Progress& progress)
 {
     scene.description.lights.clear();
@@ -58,6 +76,30 @@ void add_furnace_cases(StressRun& run)
             const bool quick = kind.mesh.empty() && integrator == IntegratorKind::ept;
             run.add(fmt::format("{}, {}", kind.name, name_of(integrator)), quick ? StressExtent::quick : StressExtent::full, [&] {
                 return furnace(bed_of(kind, run.progress()), {.kind = integrator, .accuracy = Accuracy::draft, .spp = 8}, float_paths, run.progress());
+            });
+        }
+    }
+
+    run.begin("white furnace, indices", "the same for indices of refraction and roughnesses at their ends", "1e-5: the rounding of some 100 products of floats");
+    for (const double ior : {0.1, 1.0001, 4.0, 10.0}) {
+        for (const double roughness : {0.0, 0.05, 1.0}) {
+            run.add(fmt::format("index {}, roughness {}, ept", ior, roughness), ior == 4 ? StressExtent::quick : StressExtent::full, [&] {
+                return furnace(bed_of({"", glass_material(ior, roughness), ""}, run.progress()), {.spp = 8}, float_paths, run.progress());
+            });
+        }
+        for (const char* mesh : {"", "cube.obj"}) {
+            run.add(fmt::format("index {}, {}, ppt", ior, *mesh ? "cubes" : "spheres"), StressExtent::full, [&] {
+                return furnace(bed_of({"", glass_material(ior), mesh}, run.progress()), {.kind = IntegratorKind::ppt, .accuracy = Accuracy::draft, .spp = 8}, float_paths, run.progress());
+            });
+        }
+    }
+
+    run.begin("white furnace, sampled", "the same with a surrounding that is sampled, in the mean", "noise");
+    for (const IntegratorKind integrator : {IntegratorKind::ept, IntegratorKind::ppt, IntegratorKind::automatic, IntegratorKind::vpt, IntegratorKind::stf}) {
+        for (const Kind& kind : kinds()) {
+            const bool quick = integrator == IntegratorKind::ept && kind.name == "rough glass spheres";
+            run.add(fmt::format("{}, {}", kind.name, name_of(integrator)), quick ? StressExtent::quick : StressExtent::full, [&] {
+                return sampled_furnace(bed_of(kind, run.progress()), {.kind = integrator, .accuracy = Accuracy::draft, .spp = 512}, run.progress());
             });
         }
     }

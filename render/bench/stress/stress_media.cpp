@@ -107,7 +107,7 @@ void add_medium_cases(StressRun& run)
         for (const double albedo : {0.5, 0.9, 0.99, 0.9999, 0.999999}) {
             const bool deep = albedo > 0.999;
             run.add(fmt::format("optical radius 1e6, albedo {}, {}", albedo, name_of(kind)), albedo == 0.9 && kind == IntegratorKind::vpt ? StressExtent::quick : StressExtent::full, [&] {
-                return against_half_space(1e6, albedo, {.kind = kind, .accuracy = Accuracy::draft, .spp = deep ? 256u : 1024u}, kind == IntegratorKind::stf ? 0.003 : 0, run.progress());
+                return against_half_space(1e6, albedo, {.kind = kind, .accuracy = Accuracy::draft, .spp = deep ? 256u : 4096u}, kind == IntegratorKind::stf ? 0.003 : 0, run.progress());
             });
         }
     }

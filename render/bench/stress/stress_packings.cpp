@@ -40,6 +40,20 @@ StressScene fcc(const Material& material, int cells)
     return scene;
 }
 
+/// Spheres that dumps should not hold and do: twice the same, one within another, touching from within.
+StressScene odd_grains(const Material& material)
+{
+    StressScene scene = few_grains(material, 0);
+    const auto add = [&](const V3d& center, double radius) { scene.grains.push_back({center, radius, 0, {1, 0, 0, 0}}); };
+    for (int i = 0; i < 3; ++i) add(V3d(0), 1);
+    add(V3d(0.25, 0, 0), 0.25);
+    add(V3d(0, 0.5, 0), 0.5);
+    add(V3d(0, -1.5, 0), 0.5);
+    add(V3d(0, 0, 1), 0);
+    for (int i = 0; i < 200; ++i) add(V3d(1.5, 0, 0.5), 0.25);
+    return scene;
+}
+
 } // namespace
 
 void add_packing_cases(StressRun& run)
@@ -51,6 +65,8 @@ void add_packing_cases(StressRun& run)
         run.add("no grain, " + name_of(kind), StressExtent::quick, [&] { return white(few_grains(glass_material(1.5), 0), view, 1e-5, run.progress()); });
         run.add("one grain, " + name_of(kind), extent, [&] { return white(few_grains(glass_material(1.5), 1), view, 1e-5, run.progress()); });
         run.add("2,916 touching spheres of glass, f 0.74, " + name_of(kind), extent, [&] { return white(fcc(glass_material(1.5), 9), view, 1e-5, run.progress()); });
+        run.add("grains in each other, glass, " + name_of(kind), extent, [&] { return white(odd_grains(glass_material(1.5)), view, 1e-5, run.progress()); });
+        run.add("grains in each other, white, " + name_of(kind), extent, [&] { return white(odd_grains(lambert_material(C3f(1))), view, 1e-5, run.progress()); });
         run.add("2,916 touching white spheres, f 0.74, " + name_of(kind), extent, [&] { return white(fcc(lambert_material(C3f(1)), 9), view, 1e-5, run.progress()); });
     }
 }
@@ -73,10 +89,18 @@ void add_long_path_cases(StressRun& run)
             return white(scene, {.kind = kind, .accuracy = Accuracy::draft, .spp = 2}, 1e-5, run.progress());
         });
     }
-    for (const auto& [name, material] : {std::pair{"glass", glass_material(1.5)}, std::pair{"rough glass", glass_material(1.5, 0.5)}, std::pair{"white", lambert_material(C3f(1))}}) {
+    struct Deep {
+        const char* grains;
+        const char* number;
+        Material material;
+        double radius;
+    };
+    // Light passes several spheres of glass before it is turned, so that there must be more of them for as long a way.
+    for (const auto& [grains, number, material, radius] : {Deep{"spheres of glass", "10^11", glass_material(1.5), 0.0002}, Deep{"spheres of rough glass", "10^10", glass_material(1.5, 0.5), 0.0005},
+                                                           Deep{"white spheres", "10^9", lambert_material(C3f(1)), 0.001}}) {
         for (const IntegratorKind kind : {IntegratorKind::ept, IntegratorKind::ppt}) {
-            run.add(fmt::format("the middle of 10^8 spheres, {}, {}", name, name_of(kind)), StressExtent::full, [&] {
-                const StressScene scene = from_within(filled_scene(material, 0.002, run.progress()), 2, 2);
+            run.add(fmt::format("the middle of {} {}, {}", number, grains, name_of(kind)), StressExtent::full, [&] {
+                const StressScene scene = from_within(filled_scene(material, radius, run.progress()), 2, 2);
                 return white(scene, {.kind = kind, .accuracy = Accuracy::draft, .spp = 1}, 1e-5, run.progress());
             });
         }

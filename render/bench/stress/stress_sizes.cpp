@@ -53,9 +53,13 @@ StressFinding like_decade_zero(int decade, const StressView& view, const Progres
     return finding;
 }
 
-StressFinding white(int decade, const Material& material, const StressView& view, const Progress& progress)
+StressFinding white(int decade, const Material& material, const StressView& view, const Progress& progress, const std::string& mesh = "")
 {
     StressScene scene = decades(decade, {material});
+    if (!mesh.empty()) {
+        scene.meshes[mesh] = cube_mesh(1);
+        scene.description.types[0].mesh = mesh;
+    }
     add_constant(scene, C3f(1));
     const StressPicture picture = StressStage(scene, {}, view, progress).render(view, progress);
     StressFinding finding = compare_exactly(picture.film, 1, 1e-5);
@@ -110,6 +114,9 @@ void add_size_cases(StressRun& run)
     for (const int decade : {-9, -3, 3}) {
         run.add(fmt::format("glass, near radius 1e{}, ept", decade), StressExtent::quick, [&] { return white(decade, glass_material(1.5), {.spp = 64}, run.progress()); });
         run.add(fmt::format("white, near radius 1e{}, ept", decade), StressExtent::quick, [&] { return white(decade, lambert_material(C3f(1)), {.spp = 64}, run.progress()); });
+    }
+    for (const int decade : {-9, 3}) {
+        run.add(fmt::format("glass cubes, near radius 1e{}, ept", decade), StressExtent::quick, [&] { return white(decade, glass_material(1.5), {.spp = 64}, run.progress(), "cube.obj"); });
     }
     for (const IntegratorKind kind : {IntegratorKind::ppt, IntegratorKind::vpt, IntegratorKind::stf}) {
         run.add("glass, all, " + name_of(kind), StressExtent::full, [&] { return white(most, glass_material(1.5), {.kind = kind, .accuracy = Accuracy::draft, .spp = 16}, run.progress()); });
