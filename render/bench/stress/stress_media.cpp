@@ -61,9 +61,17 @@ double half_space_radiance(double albedo)
     return 1 - root * next(1);
 }
 
-StressFinding against_half_space(double optical_radius, double albedo, const StressView& view, double bias, const Progress& progress)
+Placing askew()
 {
-    const StressPicture picture = StressStage(cube_of_medium(optical_radius, albedo, 0), {}, view, progress).render(view, progress);
+    Placing placing;
+    placing.rotation = Imath::Quatd(0.8, V3d(0.36, 0, 0.48));
+    placing.offset = V3d(100.1, -30.3, 7.7);
+    return placing;
+}
+
+StressFinding against_half_space(double optical_radius, double albedo, const StressView& view, double bias, const Progress& progress, const Placing& placing = {})
+{
+    const StressPicture picture = StressStage(cube_of_medium(optical_radius, albedo, 0), placing, view, progress).render(view, progress);
     StressFinding finding = compare_truth(picture.film, std::vector<double>(picture.film.pixels().size(), half_space_radiance(static_cast<float>(albedo))), 4, bias);
     finding.count(picture.statistics);
     finding.remark += fmt::format("; longest path {} segments", finding.longest);
@@ -119,6 +127,41 @@ void add_medium_cases(StressRun& run)
             scattered{.kind = IntegratorKind::vpt, .spp = 512, .seed = 3, .direct_light = DirectLight::scattering_only};
         run.add(fmt::format("g {}, vpt and stf", g), StressExtent::full, [&] { return two_ways(ball, stepwise, shells, 0.01, run.progress()); });
         run.add(fmt::format("g {}, lights sampled or not", g), g == 0.999 ? StressExtent::quick : StressExtent::full, [&] { return two_ways(ball, stepwise, scattered, 0, run.progress()); });
+    }
+
+    run.begin("media, ends", "extinctions and colours at their ends with what they must be", "noise; 1e-5 where light only passes or is only scattered");
+    for (const IntegratorKind kind : medium_kinds) {
+        const StressView view{.kind = kind, .accuracy = Accuracy::draft, .spp = 1024};
+        const StressView many{.kind = kind, .accuracy = Accuracy::draft, .spp = 4096};
+        run.add("sigma_t 1e12, albedo 0.5, " + name_of(kind), StressExtent::full, [&] { return against_half_space(1e12, 0.5, many, kind == IntegratorKind::stf ? 0.003 : 0, run.progress()); });
+        for (const double sigma_t : {1e8, 1e11}) {
+            const bool quick = kind == IntegratorKind::vpt && sigma_t < 1e9;
+            run.add(fmt::format("sigma_t {:g}, albedo 0.5, turned, {}", sigma_t, name_of(kind)), quick ? StressExtent::quick : StressExtent::full, [&] {
+                return against_half_space(sigma_t, 0.5, many, kind == IntegratorKind::stf ? 0.003 : 0, run.progress(), askew());
+            });
+        }
+        run.add("sigma_t 1e-30, albedo 0.5, " + name_of(kind), StressExtent::quick, [&] { return lossless(cube_of_medium(1e-30, 0.5, 0), view, 1e-5, run.progress()); });
+        if (kind == IntegratorKind::stf) run.add("optical radius 1e6, albedo 0.9999, g 0.999, vpt and stf", StressExtent::full, [&] {
+            const StressScene cube = cube_of_medium(1e6, 0.9999, 0.999);
+            StressView other = view;
+            other.spp = 8;
+            StressView stepwise = other;
+            stepwise.kind = IntegratorKind::vpt;
+            other.seed = 2;
+            return two_ways(cube, stepwise, other, 0.01, run.progress());
+        });
+        for (const C3f& sigma : {C3f(16, 4, 1), C3f(1e3f, 1, 1e-3f)}) {
+            run.add(fmt::format("sigma_t {:g}, {:g}, {:g}, lossless, {}", sigma.x, sigma.y, sigma.z, name_of(kind)), sigma.x < 100 ? StressExtent::quick : StressExtent::full, [&] {
+                StressScene cube = cube_of_medium(1, 1, 0);
+                cube.description.media[0].sigma_t = sigma;
+                StressView few = view;
+                few.spp = sigma.x > 100 ? 16 : 1024;
+                const StressPicture picture = StressStage(cube, {}, few, run.progress()).render(few, run.progress());
+                StressFinding finding = compare_truth(picture.film, std::vector<double>(picture.film.pixels().size(), 1), 4);
+                finding.count(picture.statistics);
+                return finding;
+            });
+        }
     }
 }
 
