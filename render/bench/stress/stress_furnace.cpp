@@ -99,7 +99,7 @@ void add_furnace_cases(StressRun& run)
         for (const Kind& kind : kinds()) {
             const bool quick = integrator == IntegratorKind::ept && kind.name == "rough glass spheres";
             run.add(fmt::format("{}, {}", kind.name, name_of(integrator)), quick ? StressExtent::quick : StressExtent::full, [&] {
-                return sampled_furnace(bed_of(kind, run.progress()), {.kind = integrator, .accuracy = Accuracy::draft, .spp = 512}, run.progress());
+                return sampled_furnace(bed_of(kind, run.progress()), {.kind = integrator, .accuracy = Accuracy::draft, .spp = 256}, run.progress());
             });
         }
     }
