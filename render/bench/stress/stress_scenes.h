@@ -12,7 +12,6 @@ StressScene scene_from_above(int pixels, double width, double height);
 void add_constant(StressScene& scene, const C3f& radiance);
 /// A bright sky, a wide sun and a rectangle of light: what shows a turn, and makes no single bright samples.
 void add_day(StressScene& scene);
-/// The white of a furnace as a distant light from everywhere, which is sampled.
 void add_type(StressScene& scene, const std::string& name, const Material& material, const std::string& mesh = "");
 void add_medium(StressScene& scene, const std::string& mesh, double sigma_t, const C3f& albedo, double g);
 
