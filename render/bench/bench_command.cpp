@@ -5,6 +5,7 @@
 #include "render/bench/bench_report.h"
 #include "render/bench/bench_result.h"
 #include "render/bench/bench_suite.h"
+#include "render/bench/stress/stress_command.h"
 #include "render/bench/suite_run.h"
 #include "render/interrupt.h"
 #include "render/option_values.h"
@@ -114,6 +115,7 @@ void add_bench_command(CLI::App& app)
     command->add_option("--readme", a.readme, "With --suite: put the numbers into this file too, between <!-- scree bench --> and <!-- /scree bench -->");
     command->add_flag("-q,--quiet", job.quiet, "No progress");
     for (const char* name : {"--integrators", "--accuracy", "--time", "--seeds", "--reference", "--reference-time", "--size", "--frame", "-D"}) suite->excludes(command->get_option(name));
+    add_stress_option(*command);
     command->callback([arguments, suite] {
         arguments->suite = suite->count() > 0;
         take_over(*arguments);

@@ -32,6 +32,15 @@ uint64_t hash_file(const std::filesystem::path& file, uint64_t seed)
     return seed;
 }
 
+/// Places are doubles of about the size of the region: a way much below 2^-53 of that is none, and light leaves too soon.
+void warn_if_too_dense(const MediumDescription& medium, const Imath::Box3d& bounds, double unit, std::vector<std::string>& warnings)
+{
+    constexpr double least = 0x1p-46; // mean free paths, of the region's size: at 2^-47 nothing was seen yet
+    const double size = bounds.size().length(), sigma_t = max_component(medium.sigma_t) * unit;
+    if (!(sigma_t * size * least > 1)) return;
+    warnings.push_back(fmt::format("the mean free path of '{}' is {:.2g} of its size: places cannot tell so small a way, and it looks too bright", name_of(medium), 1 / (sigma_t * size)));
+}
+
 } // namespace
 
 void MediumBuilder::refuse_overlaps(const World& world) const
@@ -106,6 +115,7 @@ uint64_t MediumBuilder::build(World& world, const TypeRequest& request, uint64_t
             hash = mix64(hash ^ made.hash);
         } else {
             const double unit = world.space.world_length(1);
+            warn_if_too_dense(medium, region.bounds(), unit, request.warnings);
             region.homogeneous = std::make_shared<HomogeneousMedium>(unit * V3d(medium.sigma_t.x, medium.sigma_t.y, medium.sigma_t.z), medium.albedo, medium.g);
         }
         parts.push_back({part, true, fmt::format("{}, within {} triangles", what, region.triangles.size()), watch.seconds(), bytes});

@@ -121,7 +121,8 @@ bool RegionTracer::next(const V3d& o, const V3d& d, double tmin, double tmax, co
     query.best = tmax;
     query.last = last;
     query.slack = 0x1p-20 * (impl_->middle.length() + reach);
-    query.advanced = std::max(tmin, along - reach) - query.slack;
+    // A ray nearly along a face needs a long way back to be on its near side for certain, whatever rounding does to its start.
+    query.advanced = std::max(tmin, along - reach) - 0x1p10 * query.slack;
     RTCRayHit ray = make_ray(o + query.advanced * d, d, tmax - query.advanced + query.slack);
     rtcIntersect1(impl_->scene, &query.context, &ray);
     if (query.found) crossing = query.crossing;

@@ -154,11 +154,13 @@ void tracer_filter(const RTCFilterFunctionNArguments* args)
 
     Place place;
     double t;
-    const uint32_t grain = hit->primID + (hit->geomID == Tracer::Impl::mesh_id ? world.grains.analytic_count : 0);
+    const bool is_grain = hit->geomID == Tracer::Impl::analytic_id || hit->geomID == Tracer::Impl::mesh_id;
+    const uint32_t grain = is_grain ? query.grain_of(*hit) : 0;
     if (hit->geomID == Tracer::Impl::analytic_id || (hit->geomID == Tracer::Impl::mesh_id && query.is_proxy(grain))) {
         const bool far_face = hit->Ng_x * query.d.x + hit->Ng_y * query.d.y + hit->Ng_z * query.d.z > 0;
         // The far face follows the near one: light is not to be weakened twice.
-        if (far_face && (world.grains.margin.complete || query.attenuates)) return;
+        const FloatMargin& margin = query.sized ? query.sized->margin : world.grains.margin;
+        if (far_face && (margin.complete || query.attenuates)) return;
         // A convex grain is not met again by the ray that leaves it.
         if (query.from.kind == HitKind::grain && query.from.index == grain) return;
         const GrainStore& grains = world.grains;
@@ -223,9 +225,10 @@ Hit Tracer::grain_around(const V3d& place, const V3d& d) const
     query.around = &place;
     query.proxies = true;
     query.best = back;
-    query.advanced = -impl_->world.margin().step_back;
+    query.advanced = -impl_->step_back();
     RTCRayHit ray = make_ray(query.o + query.advanced * d, d, query.embree_end());
     rtcOccluded1(impl_->scene, &query.context, &ray.ray);
+    if (impl_->sizes && query.place.kind == HitKind::none) impl_->sizes->find_any(query);
     if (impl_->fill && query.place.kind == HitKind::none) impl_->fill->find_any(query);
     if (query.place.kind != HitKind::grain) return {};
     Hit hit = make_hit(query);
@@ -244,7 +247,7 @@ bool approach(const Tracer::Impl& tracer, TracerQuery& query)
 {
     const double radius = tracer.radius;
     query.reach = tracer.mesh_reach;
-    query.advanced = query.beyond - tracer.world.margin().step_back;
+    query.advanced = query.beyond - tracer.step_back();
     if (query.beyond > 0) return true;
     if (query.o.length2() <= 4 * radius * radius) return true;
     query.reach = 0; // no sphere is around a start this far out
@@ -265,6 +268,7 @@ Hit Tracer::intersect(const V3d& o, const V3d& d, const Place& from, GrainDetail
     const V3d start = float_start(impl_->world, o, d, from) + query.advanced * d;
     RTCRayHit ray = make_ray(start, d, query.embree_end());
     rtcIntersect1(impl_->scene_with(detail), &query.context, &ray);
+    if (impl_->sizes && detail != GrainDetail::none) impl_->sizes->find_nearest(query);
     if (impl_->fill && detail != GrainDetail::none) impl_->fill->find_nearest(query);
     return make_hit(query);
 }
@@ -310,6 +314,7 @@ double Tracer::visibility(const V3d& o, const V3d& d, double tmax, const Place& 
     if (tmax <= query.advanced) return 1;
     RTCRayHit ray = make_ray(float_start(impl_->world, o, d, from) + query.advanced * d, d, query.embree_end());
     rtcOccluded1(impl_->scene_with(detail), &query.context, &ray.ray);
+    if (impl_->sizes && detail != GrainDetail::none && query.place.kind == HitKind::none) impl_->sizes->find_any(query);
     if (impl_->fill && detail != GrainDetail::none && query.place.kind == HitKind::none) impl_->fill->find_any(query);
     return query.place.kind == HitKind::none ? query.passed : 0;
 }

@@ -12,8 +12,12 @@ Tracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const World& wor
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
 
     const GrainStore& grains = world.grains;
-    attach_grains(analytic_id, 0, grains.analytic_count);
-    attach_grains(mesh_id, grains.analytic_count, grains.size() - grains.analytic_count);
+    if (SizeClasses::are_needed(grains)) {
+        sizes = std::make_unique<SizeClasses>(*device, grains);
+    } else {
+        attach_grains(analytic_id, 0, grains.analytic_count);
+        attach_grains(mesh_id, grains.analytic_count, grains.size() - grains.analytic_count);
+    }
     for (uint32_t i = grains.analytic_count; i < grains.size(); ++i) mesh_reach = std::max(mesh_reach, 2.001 * grains.radius(i));
 
     const bool inside_possible = std::any_of(world.types.begin(), world.types.end(),
@@ -62,6 +66,10 @@ Tracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const World& wor
     V3d far(0);
     if (bounds.lower_x <= bounds.upper_x) {
         far = V3d(farthest(bounds.lower_x, bounds.upper_x), farthest(bounds.lower_y, bounds.upper_y), farthest(bounds.lower_z, bounds.upper_z));
+    }
+    for (uint32_t i = 0; sizes && i < grains.size(); ++i) {
+        const V3d c = grains.centre(i);
+        for (int axis = 0; axis < 3; ++axis) far[axis] = std::max(far[axis], std::abs(c[axis]) + grains.radius(i));
     }
     if (world.domain) {
         const V3d lo = world.domain->min, hi = world.domain->max;

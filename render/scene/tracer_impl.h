@@ -3,6 +3,7 @@
 // Private to the tracer: the only header of ours that sees Embree.
 
 #include "render/scene/fill_tracer.h"
+#include "render/scene/size_classes.h"
 #include "render/scene/tracer.h"
 
 #include <embree3/rtcore.h>
@@ -32,11 +33,14 @@ struct Tracer::Impl {
     double mesh_reach = 0;              // the largest diameter of a mesh grain: how far on a sphere around a ray's start ends
     double radius = 0;
     std::unique_ptr<const RegionTracer> regions; // where there are media
+    std::unique_ptr<const SizeClasses> sizes; // where grains differ so much in size that `scene` is without them
     std::unique_ptr<const FillTracer> fill; // where the grains are those of a fill: the scene then has surfaces and lights
 
     Impl(std::shared_ptr<const EmbreeDevice> device, const World& world);
     ~Impl();
 
+    /// How far Embree's rays in `scene` start before a ray's own start.
+    double step_back() const { return sizes ? 0 : world.margin().step_back; }
     RTCScene scene_with(GrainDetail detail) const { return detail == GrainDetail::none && open_scene ? open_scene : scene; }
     bool is_surface(uint32_t id) const { return id >= first_surface && id < first_light; }
     uint32_t light_of(uint32_t id) const { return light_of_id[id - first_light]; }
@@ -52,6 +56,7 @@ private:
 struct TracerQuery {
     RTCIntersectContext context; // first: Embree hands it back
     const Tracer::Impl* tracer;
+    const SizeClass* sized = nullptr; // whose scene Embree is asked; null: the tracer's
     V3d o, d;
     double advanced = 0;         // Embree's ray starts at o + advanced d
     double reach = 0;            // Embree's ray is never shorter, so that every sphere around its start is proposed
@@ -85,6 +90,13 @@ struct TracerQuery {
     bool offer_sphere(const Place& grain, const GrainSphere& sphere, double t);
     /// Traces the mesh of a grain from o, outside; takes a hit nearer than best.
     bool offer_mesh(const Place& grain, const GrainSphere& sphere);
+    /// The grain that a primitive is.
+    uint32_t grain_of(const RTCHit& hit) const
+    {
+        const bool is_mesh = hit.geomID == Tracer::Impl::mesh_id;
+        if (sized) return sized->grains[hit.primID + (is_mesh ? sized->spheres : 0)];
+        return hit.primID + (is_mesh ? tracer->world.grains.analytic_count : 0);
+    }
     /// Whether a mesh grain's sphere, met at Embree's hit, is to be offered: entered there, or left there with o inside.
     bool is_mesh_due(const GrainSphere& sphere, const RTCHit& hit) const;
 };
