@@ -17,8 +17,8 @@ h1 { font-size: 26px; margin: 0 0 2px; } h2 { font-size: 18px; margin: 0 0 6px; 
 .below { color: #5a6775; margin: 0 0 18px; overflow-wrap: anywhere; }
 section { background: #fff; border: 1px solid #dde3e9; border-radius: 8px; padding: 18px 20px; margin: 0 0 16px; overflow-x: auto; }
 p { margin: 4px 0 10px; max-width: 90ch; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: 6px 0 10px; font-size: 14px; }
-td, th { text-align: right; padding: 4px 0 4px 14px; white-space: nowrap; font-weight: normal; }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: 6px 0 10px; font-size: 13px; }
+td, th { text-align: right; padding: 4px 0 4px 11px; white-space: nowrap; font-weight: normal; }
 td:first-child, th:first-child { text-align: left; padding-left: 0; font-weight: 600; }
 thead th { color: #5a6775; border-bottom: 1px solid #dde3e9; vertical-align: bottom; }
 tbody tr + tr td { border-top: 1px solid #edf0f3; }

@@ -38,7 +38,8 @@ struct ErrorEstimate {
 /// Of pictures A, B of one method and a reference R, the mean over pixels of (A - R)(B - R), less the variance of R, is the squared
 /// bias, whatever the noise. Standard errors are by the scatter over pixels, which are independent of each other. Relative to the
 /// reference around a pixel, without the pixel itself, as its noise would be in both factors. Both of one size. Where nothing is known
-/// of the reference's noise the standard error of a bias is infinite.
+/// of the reference's noise the standard error of a bias is infinite. Noise and error are relative to the pixel itself, as MRSE is
+/// defined: where a reference has rare bright samples they come out too large.
 ErrorEstimate estimate_error(const HalfPictures& picture, const HalfPictures& reference);
 
 /// The squared relative error of one estimate of the picture (as half a alone), less the reference's noise.
