@@ -6,11 +6,11 @@
 #include "mixtures/picture.h"
 #include "render/film/exr_output.h"
 #include "render/grains/grain_portrait.h"
+#include "render/gsdf/table_command.h"
 #include "render/interrupt.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <memory>
 #include <optional>
@@ -18,8 +18,6 @@
 namespace scree {
 
 namespace {
-
-constexpr int interrupted_status = 130;
 
 struct Arguments {
     std::vector<std::string> names;
@@ -63,8 +61,6 @@ void show(const Arguments& a)
     const int rows = (count + columns - 1) / columns;
     Picture sheet(columns * (size + margin) + margin, rows * (size + label + margin) + margin, {255, 255, 255});
 
-    std::optional<tbb::global_control> threads;
-    if (a.threads > 0) threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(a.threads));
     ConsoleProgress console(a.quiet);
     const InterruptGuard guard(console.progress());
     for (int i = 0; i < count; ++i) {
@@ -95,11 +91,7 @@ void add_grains_show_command(CLI::App& grains)
     command->add_option("-t,--threads", a.threads, "Threads (default: all cores)")->check(CLI::Range(1, 4096));
     command->add_flag("-q,--quiet", a.quiet, "No progress");
     command->callback([arguments] {
-        try {
-            show(*arguments);
-        } catch (const Cancelled&) {
-            throw CLI::RuntimeError(interrupted_status);
-        }
+        run_command(arguments->threads, [&] { show(*arguments); });
     });
 }
 

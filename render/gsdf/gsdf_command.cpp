@@ -1,20 +1,17 @@
 #include "render/gsdf/gsdf_command.h"
 
-#include "ingest/support/atomic_file.h"
 #include "ingest/support/console_progress.h"
 #include "ingest/support/error.h"
 #include "render/figure_drawing.h"
-#include "render/film/exr_output.h"
 #include "render/gsdf/error_figure.h"
 #include "render/gsdf/gsdf_report.h"
 #include "render/gsdf/subject_options.h"
+#include "render/gsdf/table_command.h"
 #include "render/interrupt.h"
-#include "render/scene/embree_device.h"
 #include "render/scene/part_report.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <cstdio>
 #include <memory>
@@ -24,75 +21,49 @@ namespace scree {
 
 namespace {
 
-constexpr int interrupted_status = 130;
+const std::string place = "scree grains gsdf";
 
 struct Arguments {
     std::vector<std::string> words;
     SubjectOptions subject;
     GsdfOptions gsdf{.error = 0.03}; // as the renderer at standard accuracy
     bool again = false;
-    std::string figure, size = "1600x1130", json;
+    TableOutputs out{.figure = {}, .size = "1600x1130", .json = {}};
     uint64_t figure_paths = 12'000'000;
-    int threads = 0;
-    bool quiet = false;
 };
-
-/// Everything that can be wrong, before the work.
-void check_outputs(const Arguments& a)
-{
-    if (!a.figure.empty()) {
-        check_preview_format(a.figure);
-        AtomicFile(a.figure);
-    }
-    if (!a.json.empty() && a.json != "-") AtomicFile(a.json);
-}
 
 class Command {
 public:
-    explicit Command(const Arguments& arguments) : a_(arguments), size_(read_figure_size(a_.size)), console_(a_.quiet) {}
+    explicit Command(const Arguments& arguments) : a_(arguments), size_(read_figure_size(a_.out.size)), console_(a_.out.quiet) {}
 
     void run()
     {
-        const std::vector<GsdfSubject> subjects = gsdf_subjects(a_.words, a_.subject, "scree grains gsdf");
-        if (!a_.figure.empty() && subjects.size() > 1) throw InputError("--figure", fmt::format("{} grains", subjects.size()), "one grain a figure");
-        check_outputs(a_);
+        const std::vector<GsdfSubject> subjects = gsdf_subjects(a_.words, a_.subject, place);
+        if (!a_.out.figure.empty() && subjects.size() > 1) throw InputError("--figure", fmt::format("{} grains", subjects.size()), "one grain a figure");
+        check_outputs(a_.out);
         std::vector<uint64_t> hashes; // of the shapes: a missing file is told before the work as well
         for (const GsdfSubject& subject : subjects) hashes.push_back(hash_shape(subject.shape));
 
         const InterruptGuard guard(console_.progress());
-        const bool table = a_.json != "-";
-        if (table) print(gsdf_table_head());
+        const bool table = a_.out.prints_table();
+        if (table) print_line(gsdf_table_head());
         std::vector<GsdfReport> reports;
         for (size_t i = 0; i < subjects.size(); ++i) {
-            console_.set_prefix(subjects.size() == 1 ? subjects[i].name : fmt::format("{} ({} of {})", subjects[i].name, i + 1, subjects.size()));
+            console_.set_prefix(progress_prefix(subjects[i].name, i, subjects.size()));
             reports.push_back(report_on(subjects[i], hashes[i]));
             console_.finish();
             if (!reports.back().found.remark.empty()) fmt::print(stderr, "scree: {}\n", reports.back().found.remark);
-            if (table) print(gsdf_table_line(reports.back()));
+            if (table) print_line(gsdf_table_line(reports.back()));
         }
-        if (!a_.figure.empty()) draw(reports.front(), table);
-        if (a_.json == "-") fmt::print("{}", gsdf_json(reports));
-        else if (!a_.json.empty()) write_whole(a_.json, gsdf_json(reports));
+        if (!a_.out.figure.empty()) draw(reports.front(), table);
+        write_json(a_.out, [&] { return gsdf_json(reports); });
     }
 
 private:
-    static void print(const std::string& line)
-    {
-        fmt::print("{}\n", line);
-        std::fflush(stdout);
-    }
-
-    std::shared_ptr<const Exemplar> exemplar(const GsdfSubject& subject)
-    {
-        if (!subject.shape.has_mesh()) return nullptr;
-        if (!device_) device_.emplace();
-        return make_exemplar(*device_, subject.shape, subject.material, "scree grains gsdf", subject.name);
-    }
-
     GsdfReport report_on(const GsdfSubject& subject, uint64_t hash)
     {
         const Stopwatch watch;
-        const GsdfSource source{hash, subject.material, [&] { return exemplar(subject); }};
+        const GsdfSource source{hash, subject.material, [&] { return bodies_.body(subject); }};
         const auto work = a_.again ? make_gsdf : find_gsdf;
         GsdfReport report{subject, work(source, a_.gsdf, cache_folder(), console_.progress()), 0, a_.gsdf.error, {}};
         report.seconds = watch.seconds();
@@ -103,24 +74,24 @@ private:
 
     void draw(GsdfReport& report, bool table)
     {
-        const std::shared_ptr<const Exemplar> shape = exemplar(report.subject);
+        const std::shared_ptr<const Exemplar> shape = bodies_.body(report.subject);
         const BruteForceMaps truth = brute_force_maps({shape.get(), report.subject.material}, a_.figure_paths, a_.gsdf.seed, console_.progress());
         console_.finish();
         const ScatteringMap map = map_of_gsdf(*report.found.gsdf);
-        report.figure = {a_.figure, truth.paths, map_errors(map, truth)};
+        report.figure = {a_.out.figure, truth.paths, map_errors(map, truth)};
         const std::vector<std::string> lines = form_table(report.figure->errors, report.subject.name);
         const std::string title = fmt::format("{}: error of the GSDF against {:.2g} paths traced through the grain", report.subject.name,
                                               static_cast<double>(truth.paths) * 2 / 3);
-        draw_error_figure(map, truth.both, size_.width, size_.height, title, lines).write(a_.figure);
+        draw_error_figure(map, truth.both, size_.width, size_.height, title, lines).write(a_.out.figure);
         if (!table) return;
-        print("");
-        for (const std::string& line : lines) print(line);
+        print_line("");
+        for (const std::string& line : lines) print_line(line);
     }
 
     const Arguments& a_;
     FigureSize size_;
     ConsoleProgress console_;
-    std::optional<EmbreeDevice> device_;
+    SubjectBodies bodies_{place};
 };
 
 void add_options(CLI::App& command, Arguments& a)
@@ -129,12 +100,11 @@ void add_options(CLI::App& command, Arguments& a)
     add_subject_options(command, a.subject);
     command.add_option("--error", a.gsdf.error, "Mean relative error wanted of the density of directions (default 0.03; the renderer asks for 0.005, 0.01, 0.03, 0.08 at accuracy reference, high, standard, draft)")->check(number_in(1e-4, 1));
     command.add_flag("--force", a.again, "Trace again what is in the cache");
-    command.add_option("--figure", a.figure, "Picture of the error maps of one grain to write (.png, ...), and a table of what simpler forms miss");
-    command.add_option("--size", a.size, "Of that picture, WIDTHxHEIGHT pixels (default 1600x1130)");
+    command.add_option("--figure", a.out.figure, "Picture of the error maps of one grain to write (.png, ...), and a table of what simpler forms miss");
+    command.add_option("--size", a.out.size, "Of that picture, WIDTHxHEIGHT pixels (default 1600x1130)");
     command.add_option("--figure-paths", a.figure_paths, "Through the grain, to compare with (default 12000000)")->check(CLI::Range(uint64_t{10'000}, uint64_t{1} << 36));
-    command.add_option("--json", a.json, "File to write everything to in numbers; - for standard output, without the table");
-    command.add_option("-t,--threads", a.threads, "Threads (default: all cores)")->check(CLI::Range(1, 4096));
-    command.add_flag("-q,--quiet", a.quiet, "No progress");
+    command.add_option("--json", a.out.json, "File to write everything to in numbers; - for standard output, without the table");
+    add_run_options(command, a.out);
 }
 
 } // namespace
@@ -145,13 +115,7 @@ void add_gsdf_command(CLI::App& grains)
     CLI::App* command = grains.add_subcommand("gsdf", "Find grains' scattering in the cache or trace it; draw the error maps of one");
     add_options(*command, *arguments);
     command->callback([arguments] {
-        std::optional<tbb::global_control> threads;
-        if (arguments->threads > 0) threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(arguments->threads));
-        try {
-            Command(*arguments).run();
-        } catch (const Cancelled&) {
-            throw CLI::RuntimeError(interrupted_status);
-        }
+        run_command(arguments->out.threads, [&] { Command(*arguments).run(); });
     });
 }
 

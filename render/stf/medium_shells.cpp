@@ -21,12 +21,12 @@ std::vector<float> sampled_albedos(float low, float high)
 } // namespace
 
 MediumShells::MediumShells(std::shared_ptr<const Stf> stf, const HomogeneousMedium& medium, size_t count, StfForm form)
-    : form_(form), stfs_{std::move(stf)}, phase_table_(medium.phase_table())
+    : form_(form), stfs_{std::move(stf)}
 {
     everywhere_.sigma_t = medium.sigma_t().x;
     everywhere_.albedo = medium.albedo();
     everywhere_.sampled_albedo = max_component(medium.albedo());
-    everywhere_.phase = medium.phase();
+    everywhere_.phase = stfs_[0]->phase; // not the medium's: what light is weighed by is what the records were drawn from
     add_samplers(*stfs_[0], everywhere_.sampled_albedo, count);
     bytes_ += stfs_[0]->bytes();
 }
@@ -103,8 +103,8 @@ bool MediumShells::fit_in_grid(const V3d& place, double clear, double u, Fitting
     const double sigma_t = mean.sigma_t, g = mean.g, radius = length * sigma_t;
     fitting.sigma_t = sigma_t;
     fitting.albedo = mean.albedo;
-    fitting.phase = PhaseFunction(g);
     if (diffuses) {
+        fitting.phase = PhaseFunction(g);
         fitting.radius = radius;
     } else {
         const auto above = std::ranges::upper_bound(stfs_, g, {}, [](const auto& stf) { return stf->phase.mean_cosine(); });
@@ -114,6 +114,7 @@ bool MediumShells::fit_in_grid(const V3d& place, double clear, double u, Fitting
             if (u < part) ++of;
             u = u < part ? u / part : (u - part) / (1 - part); // to be used again
         }
+        fitting.phase = stfs_[of]->phase;
         const float brightest = max_component(fitting.albedo);
         size_t albedo = static_cast<size_t>(std::ranges::lower_bound(albedos_, brightest) - albedos_.begin());
         albedo = std::min(albedo, albedos_.size() - 1);

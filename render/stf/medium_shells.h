@@ -17,7 +17,7 @@ struct FittingShell {
     double sigma_t = 0;
     C3f albedo{1};
     float sampled_albedo = 1; ///< that the shell's records are drawn by; no channel's is larger
-    PhaseFunction phase;
+    PhaseFunction phase; ///< that its records were drawn from
 
     /// What a record of so many scatterings counts per channel, over what the sampled albedo's does.
     C3f ratio(uint32_t events) const
@@ -62,7 +62,6 @@ private:
     std::vector<Samplers> samplers_; ///< by stf, and within by albedo
     std::vector<float> albedos_;     ///< that they are for, growing
     FittingShell everywhere_;        ///< of a homogeneous medium
-    std::shared_ptr<const PhaseTable> phase_table_;
     std::unique_ptr<const MediumPyramid> grid_;
 };
 

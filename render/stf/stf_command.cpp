@@ -1,16 +1,14 @@
 #include "render/stf/stf_command.h"
 
-#include "ingest/support/atomic_file.h"
 #include "ingest/support/console_progress.h"
 #include "ingest/support/error.h"
 #include "ingest/support/text.h"
 #include "render/figure_drawing.h"
-#include "render/film/exr_output.h"
 #include "render/gsdf/gsdf_cache.h"
 #include "render/gsdf/subject_options.h"
+#include "render/gsdf/table_command.h"
 #include "render/interrupt.h"
 #include "render/medium/grain_moments.h"
-#include "render/scene/embree_device.h"
 #include "render/scene/shell_builder.h"
 #include "render/scene/type_builder.h"
 #include "render/stf/stf_figure.h"
@@ -18,7 +16,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <cstdio>
 #include <memory>
@@ -28,7 +25,6 @@ namespace scree {
 
 namespace {
 
-constexpr int interrupted_status = 130;
 constexpr double largest_g = 0.999, largest_radius = 1024;
 const std::string place = "scree grains stf";
 
@@ -38,10 +34,8 @@ struct Arguments {
     SubjectOptions subject;
     std::string accuracy = "standard";
     double radius = 256, albedo = 0.99;
-    std::string figure, size = "1600x1600", json;
+    TableOutputs out{.figure = {}, .size = "1600x1600", .json = {}};
     uint64_t figure_walks = 2'000'000, figure_seed = 1;
-    int threads = 0;
-    bool quiet = false;
 };
 
 /// A phase function asked for: of a grain, or Henyey and Greenstein's.
@@ -82,65 +76,41 @@ std::vector<Subject> read_subjects(const Arguments& a)
     std::vector<Subject> subjects;
     for (const GsdfSubject& grain : gsdf_subjects(a.words, o, place)) subjects.push_back({grain.name, grain, 0, hash_shape(grain.shape)});
     for (const double g : a.g) subjects.push_back({fmt::format("g={:g}", g), std::nullopt, g, 0});
-    if (!a.figure.empty() && subjects.size() > 1) throw InputError("--figure", fmt::format("{} phase functions", subjects.size()), "one a figure", "ask for each with a file of its own");
+    if (!a.out.figure.empty() && subjects.size() > 1) throw InputError("--figure", fmt::format("{} phase functions", subjects.size()), "one a figure", "ask for each with a file of its own");
     return subjects;
-}
-
-/// Everything that can be wrong, before the work.
-void check_outputs(const Arguments& a)
-{
-    if (!a.figure.empty()) {
-        check_preview_format(a.figure);
-        AtomicFile(a.figure);
-    }
-    if (!a.json.empty() && a.json != "-") AtomicFile(a.json);
 }
 
 class Command {
 public:
-    explicit Command(const Arguments& arguments) : a_(arguments), accuracy_(read_accuracy(a_.accuracy)), size_(read_figure_size(a_.size)), console_(a_.quiet) {}
+    explicit Command(const Arguments& arguments) : a_(arguments), accuracy_(read_accuracy(a_.accuracy)), size_(read_figure_size(a_.out.size)), console_(a_.out.quiet) {}
 
     void run()
     {
         check_numbers(a_);
         const std::vector<Subject> subjects = read_subjects(a_);
-        check_outputs(a_);
+        check_outputs(a_.out);
 
         const InterruptGuard guard(console_.progress());
-        const bool table = a_.json != "-";
-        if (table) print(stf_table_head(a_.albedo));
+        const bool table = a_.out.prints_table();
+        if (table) print_line(stf_table_head(a_.albedo));
         std::vector<StfReport> reports;
         for (size_t i = 0; i < subjects.size(); ++i) {
-            console_.set_prefix(subjects.size() == 1 ? subjects[i].name : fmt::format("{} ({} of {})", subjects[i].name, i + 1, subjects.size()));
+            console_.set_prefix(progress_prefix(subjects[i].name, i, subjects.size()));
             reports.push_back(report_on(subjects[i]));
             console_.finish();
             const StfReport& report = reports.back();
             if (!report.remark.empty()) fmt::print(stderr, "scree: {}\n", report.remark);
-            for (size_t shell = 0; table && shell < report.shells.size(); ++shell) print(stf_table_line(report, shell));
+            for (size_t shell = 0; table && shell < report.shells.size(); ++shell) print_line(stf_table_line(report, shell));
         }
-        if (!a_.figure.empty()) draw(reports.front());
-        if (a_.json == "-") fmt::print("{}", stf_json(reports));
-        else if (!a_.json.empty()) write_whole(a_.json, stf_json(reports));
+        if (!a_.out.figure.empty()) draw(reports.front());
+        write_json(a_.out, [&] { return stf_json(reports); });
     }
 
 private:
-    static void print(const std::string& line)
-    {
-        fmt::print("{}\n", line);
-        std::fflush(stdout);
-    }
-
-    std::shared_ptr<const Exemplar> exemplar(const GsdfSubject& grain)
-    {
-        if (!grain.shape.has_mesh()) return nullptr;
-        if (!device_) device_.emplace();
-        return make_exemplar(*device_, grain.shape, grain.material, place, grain.name);
-    }
-
     /// Of the grain's GSDF, as a medium of such grains has it.
     std::shared_ptr<const PhaseTable> phase_table(const Subject& subject, StfReport& report)
     {
-        const GsdfSource source{subject.shape_hash, subject.grain->material, [&] { return exemplar(*subject.grain); }};
+        const GsdfSource source{subject.shape_hash, subject.grain->material, [&] { return bodies_.body(*subject.grain); }};
         const GsdfOptions options = gsdf_options(accuracy_);
         const FoundGsdf found = find_gsdf(source, options, cache_folder(), console_.progress());
         const GsdfQuality& quality = found.gsdf->data().quality;
@@ -174,13 +144,13 @@ private:
 
     void draw(StfReport& report)
     {
-        StfReport::Figure figure{a_.figure, {}};
+        StfReport::Figure figure{a_.out.figure, {}};
         for (size_t shell = 0; shell < report.shells.size(); shell += 2 * Stf::steps_per_octave) { // 1, 4, 16, ...
             figure.maps.push_back(map_shell(*report.stf, shell, a_.figure_walks, a_.figure_seed, console_.progress()));
         }
         console_.finish();
         const std::string title = fmt::format("{}, mean cosine {:.3f}: directions after two scatterings and more", report.name, report.stf->phase.mean_cosine());
-        draw_stf_figure(figure.maps, size_.width, size_.height, title).write(a_.figure);
+        draw_stf_figure(figure.maps, size_.width, size_.height, title).write(a_.out.figure);
         report.figure = std::move(figure);
     }
 
@@ -188,7 +158,7 @@ private:
     Accuracy accuracy_;
     FigureSize size_;
     ConsoleProgress console_;
-    std::optional<EmbreeDevice> device_;
+    SubjectBodies bodies_{place};
 };
 
 void add_options(CLI::App& command, Arguments& a)
@@ -199,13 +169,12 @@ void add_options(CLI::App& command, Arguments& a)
     command.add_option("--albedo", a.albedo, "To tell the shares of light at, 0 to 1 (default 0.99)");
     command.add_option("--accuracy", a.accuracy, "Of GSDFs and shells, as the renderer's: reference, high, standard (default) or draft");
     add_subject_options(command, a.subject);
-    command.add_option("--figure", a.figure, "Picture to write (.png, ...) of where light leaves shells to, of one phase function");
-    command.add_option("--size", a.size, "Of that picture, WIDTHxHEIGHT pixels (default 1600x1600)");
+    command.add_option("--figure", a.out.figure, "Picture to write (.png, ...) of where light leaves shells to, of one phase function");
+    command.add_option("--size", a.out.size, "Of that picture, WIDTHxHEIGHT pixels (default 1600x1600)");
     command.add_option("--figure-walks", a.figure_walks, "That scatter twice or more, a shell of the picture (default 2000000)")->check(CLI::Range(uint64_t{1000}, uint64_t{1} << 32));
     command.add_option("--figure-seed", a.figure_seed, "Of their random numbers (default 1)");
-    command.add_option("--json", a.json, "File to write everything to in numbers, with the picture's; - for standard output, without the table");
-    command.add_option("-t,--threads", a.threads, "Threads (default: all cores)")->check(CLI::Range(1, 4096));
-    command.add_flag("-q,--quiet", a.quiet, "No progress");
+    command.add_option("--json", a.out.json, "File to write everything to in numbers, with the picture's; - for standard output, without the table");
+    add_run_options(command, a.out);
 }
 
 } // namespace
@@ -216,13 +185,7 @@ void add_stf_command(CLI::App& grains)
     CLI::App* command = grains.add_subcommand("stf", "Tell what shells of a grain medium do to light, by shell transport functions; draw where it goes");
     add_options(*command, *arguments);
     command->callback([arguments] {
-        std::optional<tbb::global_control> threads;
-        if (arguments->threads > 0) threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(arguments->threads));
-        try {
-            Command(*arguments).run();
-        } catch (const Cancelled&) {
-            throw CLI::RuntimeError(interrupted_status);
-        }
+        run_command(arguments->out.threads, [&] { Command(*arguments).run(); });
     });
 }
 

@@ -39,7 +39,12 @@ void TestScene::add_grains(const std::vector<PackedSphere>& spheres, uint32_t ty
 void TestScene::add_surface(const TriangleMesh& mesh, const Material& material) { surfaces_.emplace_back(mesh, material); }
 void TestScene::add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const C3f& albedo, double g, bool instead_of_grains)
 {
-    media_.push_back({mesh, sigma_t, albedo, g, instead_of_grains});
+    media_.push_back({mesh, sigma_t, albedo, g, instead_of_grains, nullptr});
+}
+
+void TestScene::add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const C3f& albedo, std::shared_ptr<const PhaseTable> table)
+{
+    media_.push_back({mesh, sigma_t, albedo, 0, false, std::move(table)});
 }
 
 void TestScene::add_light(const Light& light) { lights_.push_back(light); }
@@ -92,7 +97,8 @@ void TestScene::build()
     for (const Medium& medium : media_) {
         MediumRegion region{"medium", {}, medium.mesh.triangles, nullptr, nullptr, nullptr, medium.instead_of_grains};
         for (const V3d& p : medium.mesh.positions) region.positions.emplace_back(space.point(p));
-        region.homogeneous = std::make_shared<HomogeneousMedium>(medium.sigma_t * space.world_length(1), medium.albedo, medium.g);
+        const V3d sigma_t = medium.sigma_t * space.world_length(1);
+        region.homogeneous = medium.table ? std::make_shared<HomogeneousMedium>(sigma_t, medium.albedo, medium.table) : std::make_shared<HomogeneousMedium>(sigma_t, medium.albedo, medium.g);
         world_.regions.push_back(std::move(region));
     }
     for (Light& light : lights_) {
@@ -139,6 +145,37 @@ Material dielectric(double ior, double alpha)
     material.ior = ior;
     material.alpha = alpha;
     return material;
+}
+
+Light rectangle_light(const V3d& corner, const V3d& edge1, const V3d& edge2, float radiance)
+{
+    Light light;
+    light.kind = LightKind::rectangle;
+    light.corner = corner;
+    light.edge1 = edge1;
+    light.edge2 = edge2;
+    light.radiance = C3f(radiance);
+    return light;
+}
+
+Light sphere_light(const V3d& center, double radius, float radiance)
+{
+    Light light;
+    light.kind = LightKind::sphere;
+    light.center = center;
+    light.radius = radius;
+    light.radiance = C3f(radiance);
+    return light;
+}
+
+Light distant_light(const V3d& direction, double one_minus_cos, float radiance)
+{
+    Light light;
+    light.kind = LightKind::distant;
+    light.direction = direction.normalized();
+    light.one_minus_cos = one_minus_cos;
+    light.radiance = C3f(radiance);
+    return light;
 }
 
 } // namespace scree

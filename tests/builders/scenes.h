@@ -33,6 +33,8 @@ public:
     void add_surface(const TriangleMesh& mesh, const Material& material);
     /// sigma_t per unit of length. instead_of_grains: grains in there are not met.
     void add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const C3f& albedo, double g, bool instead_of_grains = false);
+    /// The same with a phase function of a table.
+    void add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const C3f& albedo, std::shared_ptr<const PhaseTable> table);
     void add_light(const Light& light);
     void add_constant_light(float radiance);
     /// White from everywhere as well, but as a light that is sampled.
@@ -65,6 +67,7 @@ private:
         C3f albedo;
         double g;
         bool instead_of_grains;
+        std::shared_ptr<const PhaseTable> table; ///< null: g is told
     };
     std::vector<Medium> media_;
     std::vector<Light> lights_;
@@ -77,5 +80,11 @@ void prepare_media(World& world, std::optional<StfForm> shells);
 
 Material lambert(float reflectance);
 Material dielectric(double ior, double alpha = 0);
+
+/// Lights as add_light() takes them.
+Light rectangle_light(const V3d& corner, const V3d& edge1, const V3d& edge2, float radiance = 1);
+Light sphere_light(const V3d& center, double radius, float radiance = 1);
+/// direction: towards it, of any length.
+Light distant_light(const V3d& direction, double one_minus_cos, float radiance);
 
 } // namespace scree

@@ -12,25 +12,9 @@ namespace {
 
 void add_lights(TestScene& scene)
 {
-    Light rectangle;
-    rectangle.kind = LightKind::rectangle;
-    rectangle.corner = V3d(-2, -2, 5);
-    rectangle.edge1 = V3d(4, 0, 0);
-    rectangle.edge2 = V3d(0, 4, 0.5);
-    rectangle.radiance = C3f(2);
-    scene.add_light(rectangle);
-    Light sphere;
-    sphere.kind = LightKind::sphere;
-    sphere.center = V3d(3, -1, 2);
-    sphere.radius = 0.7;
-    sphere.radiance = C3f(6);
-    scene.add_light(sphere);
-    Light sun;
-    sun.kind = LightKind::distant;
-    sun.direction = V3d(-1, -1, 1).normalized();
-    sun.one_minus_cos = 1 - std::cos(12 * pi / 180);
-    sun.radiance = C3f(5);
-    scene.add_light(sun);
+    scene.add_light(rectangle_light(V3d(-2, -2, 5), V3d(4, 0, 0), V3d(0, 4, 0.5), 2));
+    scene.add_light(sphere_light(V3d(3, -1, 2), 0.7, 6));
+    scene.add_light(distant_light(V3d(-1, -1, 1), 1 - std::cos(12 * pi / 180), 5));
     std::vector<C3f> texels(32 * 16);
     for (size_t i = 0; i < texels.size(); ++i) texels[i] = C3f(i % 37 == 0 ? 4.0f : 0.2f);
     Light sky;
@@ -84,18 +68,8 @@ TEST(DirectLight, FloorShowsTheIrradianceByHand)
 {
     TestScene scene;
     scene.add_surface(ground(4, 0), lambert(0.8f));
-    Light sphere;
-    sphere.kind = LightKind::sphere;
-    sphere.center = V3d(0, 0, 2);
-    sphere.radius = 0.5;
-    sphere.radiance = C3f(3);
-    scene.add_light(sphere);
-    Light sun;
-    sun.kind = LightKind::distant;
-    sun.direction = V3d(0, 0.6, 0.8);
-    sun.one_minus_cos = 1 - std::cos(0.00463);
-    sun.radiance = C3f(static_cast<float>(2 / (pi * std::sin(0.00463) * std::sin(0.00463)))); // irradiance 2
-    scene.add_light(sun);
+    scene.add_light(sphere_light(V3d(0, 0, 2), 0.5, 3));
+    scene.add_light(distant_light(V3d(0, 0.6, 0.8), 1 - std::cos(0.00463), static_cast<float>(2 / (pi * std::sin(0.00463) * std::sin(0.00463))))); // irradiance 2
     scene.build();
     Estimate radiance;
     for (uint32_t i = 0; i < 100000; ++i) {

@@ -190,19 +190,8 @@ TEST(MediumLight, StrategiesAgree)
 {
     TestScene scene;
     scene.add_medium(cube(), V3d(2, 3, 5), C3f(0.9f, 0.95f, 1), 0.5);
-    Light lamp;
-    lamp.kind = LightKind::rectangle;
-    lamp.corner = V3d(-1, -1, 2);
-    lamp.edge1 = V3d(2, 0, 0);
-    lamp.edge2 = V3d(0, 2, 0);
-    lamp.radiance = C3f(1);
-    scene.add_light(lamp);
-    Light inner;
-    inner.kind = LightKind::sphere;
-    inner.center = V3d(0.3, 0.2, 0.1);
-    inner.radius = 0.2;
-    inner.radiance = C3f(2);
-    scene.add_light(inner);
+    scene.add_light(rectangle_light(V3d(-1, -1, 2), V3d(2, 0, 0), V3d(0, 2, 0)));
+    scene.add_light(sphere_light(V3d(0.3, 0.2, 0.1), 0.2, 2));
     scene.build();
     std::vector<Estimate> found;
     for (const DirectLight strategy : {DirectLight::both, DirectLight::lights_only, DirectLight::scattering_only}) {
