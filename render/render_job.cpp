@@ -238,7 +238,7 @@ private:
         }
         Film film = make_film(job_, scene_.film);
         const std::filesystem::path checkpoint = frame_path(outputs_[0], frame, many) + ".checkpoint";
-        const uint64_t approximation = options.path.explicit_grains * uint64_t{4} + static_cast<uint64_t>(scene_.integrator.accuracy);
+        const uint64_t approximation = hash_plan(plan);
         const uint64_t estimator = mix64(approximation ^ mix64(options.path.max_depth * uint64_t{4} + static_cast<uint64_t>(options.path.direct_light)));
         const CheckpointKey key{mix64(builder_.scene_hash() ^ estimator), options.seed};
         if (job_.resume && std::filesystem::exists(checkpoint)) read_checkpoint(checkpoint, film, key);

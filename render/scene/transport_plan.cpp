@@ -1,6 +1,10 @@
 #include "render/scene/transport_plan.h"
 
+#include "mixtures/hash.h"
+
 #include <fmt/format.h>
+
+#include <bit>
 
 namespace scree {
 
@@ -72,6 +76,31 @@ PixelSize pixel_size(const CameraDescription& camera, const FilmDescription& fil
 std::string TransportPlan::name() const
 {
     return kind == IntegratorKind::automatic && explicit_grains == all_grains && !has_grain_medium && !has_shells ? "ept" : integrator_names[static_cast<size_t>(kind)];
+}
+
+uint64_t hash_plan(const TransportPlan& plan)
+{
+    uint64_t hash = 0;
+    const auto add = [&hash](uint64_t bits) { hash = mix64(hash ^ bits) + 1; };
+    const auto add_number = [&](double number) { add(std::bit_cast<uint64_t>(number)); };
+    add(static_cast<uint64_t>(plan.accuracy));
+    add(plan.has_proxies());
+    if (plan.has_proxies()) {
+        add(plan.explicit_grains);
+        add_number(plan.least_pixels);
+    }
+    add(plan.has_grain_medium + 2 * plan.replaces_all);
+    if (plan.has_grain_medium) {
+        add(static_cast<uint64_t>(plan.medium_form));
+        add_number(plan.depth_radii);
+        add_number(plan.depth_flights);
+    }
+    add(plan.has_shells);
+    if (plan.has_shells) {
+        add(static_cast<uint64_t>(plan.stf_form));
+        add_number(plan.least_shell);
+    }
+    return hash;
 }
 
 double rough_loss(const Material& material, double radius)

@@ -332,7 +332,6 @@ void WorldBuilder::Impl::replace_grains(World& world, const Progress& progress, 
     if (!plan.has_grain_medium || !world.has_grains()) return skip("medium of the grains", world.has_grains() ? plan.why_no_medium : "the scene has no grains");
     const bool all = plan.replaces_all;
     const GrainDepth depth{all, plan.depth_radii, plan.depth_flights};
-    hash = hash_bytes(&plan.depth_radii, sizeof plan.depth_radii, mix64(hash + static_cast<uint64_t>(plan.medium_form) + 16 * all));
     if (all && scene.integrator.grain_depth) frame_warnings.push_back("grain_depth has no effect with vpt and stf, which trace no grains");
     if (precompute == Precompute::never) {
         if (needs_walk(plan.medium_form)) parts.push_back({"walk in the packing", true, "to be walked"});
@@ -351,7 +350,6 @@ void WorldBuilder::Impl::make_shells(World& world, const Progress& progress, Pre
     constexpr const char* none = "there is no medium";
     constexpr const char* unknown = "grains, or a spherical light, may be met in it";
     constexpr const char* stepwise = "light is followed from scattering to scattering in media";
-    hash = mix64(hash ^ (plan.has_shells ? 2 + static_cast<uint64_t>(plan.stf_form) : 1));
     if (precompute == Precompute::never && (plan.has_grain_medium || media.has_any())) {
         const bool known = plan.replaces_all || !world.has_grains() || !media.has_any();
         if (known) parts.push_back({distances, true, "to be found, unless a spherical light may be met in a medium"});

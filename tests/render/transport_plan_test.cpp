@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <set>
+
 namespace scree {
 namespace {
 
@@ -242,6 +244,44 @@ TEST_F(Plans, WithoutGrainsThereIsNothingForThem)
             }
         }
     }
+}
+
+TEST_F(Plans, EverySwitchTellsEstimatorsApart)
+{
+    TransportPlan plan = automatic();
+    ASSERT_TRUE(plan.has_proxies() && plan.has_grain_medium && plan.has_shells);
+    std::vector<uint64_t> hashes{hash_plan(plan)};
+    const auto with = [&](const auto& change) {
+        TransportPlan other = plan;
+        change(other);
+        hashes.push_back(hash_plan(other));
+    };
+    with([](TransportPlan& p) { p.accuracy = Accuracy::high; });
+    with([](TransportPlan& p) { p.explicit_grains = 2; });
+    with([](TransportPlan& p) { p.explicit_grains = all_grains; });
+    with([](TransportPlan& p) { p.least_pixels = 0; });
+    with([](TransportPlan& p) { p.has_grain_medium = false; });
+    with([](TransportPlan& p) { p.replaces_all = true; });
+    with([](TransportPlan& p) { p.depth_radii = 5; });
+    with([](TransportPlan& p) { p.depth_flights = 0; });
+    with([](TransportPlan& p) { p.medium_form = EquivalentForm::formula; });
+    with([](TransportPlan& p) { p.has_shells = false; });
+    with([](TransportPlan& p) { p.stf_form = StfForm::diffusion; });
+    with([](TransportPlan& p) { p.least_shell = 1; });
+    EXPECT_EQ(std::set<uint64_t>(hashes.begin(), hashes.end()).size(), hashes.size());
+}
+
+TEST_F(Plans, SwitchesOfWhatAPlanLacksAreNone)
+{
+    facts.count = 10;
+    integrator.shells = false;
+    TransportPlan plan = automatic();
+    const uint64_t hash = hash_plan(plan);
+    EXPECT_EQ(hash, hash_plan(this->plan(IntegratorKind::ept))) << "auto is ept here";
+    plan.least_shell = plan.depth_flights = plan.least_pixels = 77;
+    EXPECT_EQ(hash_plan(plan), hash);
+    integrator.shells = true; // the same shells, but larger ones only
+    EXPECT_NE(hash_plan(automatic()), hash);
 }
 
 TEST(RoughLoss, IsOfTheBrightestChannel)
