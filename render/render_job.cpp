@@ -86,9 +86,9 @@ PictureMetadata make_metadata(const RenderJob& job, const WorldBuilder& builder,
     metadata.numbers = {{"spp", statistics.spp}, {"renderTime", statistics.seconds}, {"frame", static_cast<double>(frame)},
                         {"nonFiniteSamples", static_cast<double>(statistics.non_finite)}};
     const TransportPlan& plan = builder.plan();
-    if (plan.has_grain_medium) {
+    if (const std::optional<double> depth = builder.medium_depth()) {
         metadata.texts["mediumForm"] = medium_form_names[static_cast<size_t>(plan.medium_form)];
-        if (!plan.replaces_all) metadata.numbers["grainDepth"] = plan.depth_radii;
+        if (!plan.replaces_all) metadata.numbers["grainDepth"] = *depth;
     }
     if (plan.has_shells) metadata.texts["stfForm"] = stf_form_names[static_cast<size_t>(plan.stf_form)];
     if (plan.has_proxies()) metadata.numbers["explicitGrains"] = plan.explicit_grains;
@@ -183,6 +183,9 @@ private:
         if (job.grain_depth) integrator.grain_depth = job.grain_depth;
         integrator.medium_form = job.medium_form.value_or(integrator.medium_form);
         integrator.stf_form = job.stf_form.value_or(integrator.stf_form);
+        if (job.grain_pixels) integrator.grain_pixels = job.grain_pixels;
+        if (job.grain_flights) integrator.grain_flights = job.grain_flights;
+        if (job.least_shell) integrator.least_shell = job.least_shell;
         if (job.shells) integrator.shells = job.shells;
         return scene;
     }
@@ -203,13 +206,13 @@ private:
             return;
         }
         if (job_.plan_only) {
-            fmt::print("{}", plan_text(builder_, *world, frame));
+            fmt::print("{}", plan_text(builder_, *world, frame, job_.crop || job_.pixel_bounds));
             return;
         }
         FrameReport report;
         report.frame = frame;
         report.name = builder_.frame_name(frame);
-        report.parts = all_parts(builder_, *world);
+        report.parts = all_parts(builder_, *world, job_.crop || job_.pixel_bounds);
         const auto before = builder_.device()->bytes();
         const auto build_start = std::chrono::steady_clock::now();
         const Tracer tracer(builder_.device(), *world);

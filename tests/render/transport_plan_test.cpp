@@ -212,6 +212,34 @@ TEST_F(Plans, TheUserHasTheLastWord)
     EXPECT_EQ(plan(IntegratorKind::ept).why_no_medium, "no place is 60 mean radii deep");
     integrator = {};
 
+    integrator.grain_flights = 3; // and as many radii as the accuracy has it
+    EXPECT_EQ(automatic().depth_radii, 4);
+    EXPECT_EQ(automatic().depth_flights, 3);
+    EXPECT_TRUE(plan(IntegratorKind::ppt).has_grain_medium);
+    EXPECT_FALSE(plan(IntegratorKind::vpt).depth_flights > 0) << "begins at the faces";
+    integrator.grain_depth = 10;
+    EXPECT_EQ(automatic().depth_radii, 10);
+    EXPECT_EQ(automatic().depth_flights, 3);
+    integrator = {};
+
+    camera.origin = {0, -7000, 0}; // the largest looks 0.68 pixels wide
+    integrator.grain_pixels = 0.6;
+    EXPECT_TRUE(automatic().has_exemplars());
+    EXPECT_EQ(automatic().least_pixels, 0.6);
+    EXPECT_EQ(plan(IntegratorKind::ppt).least_pixels, 0.6);
+    integrator.explicit_grains = 2;
+    EXPECT_EQ(automatic().least_pixels, 0.6);
+    EXPECT_EQ(plan(IntegratorKind::ept).least_pixels, 0) << "has no proxies";
+    integrator = {};
+
+    EXPECT_EQ(automatic().least_shell, 8);
+    EXPECT_EQ(plan(IntegratorKind::stf).least_shell, 1);
+    integrator.shells = true;
+    EXPECT_EQ(automatic().least_shell, 1);
+    integrator.least_shell = 3;
+    for (const IntegratorKind kind : kinds) EXPECT_EQ(plan(kind).least_shell, 3);
+    integrator = {};
+
     for (const IntegratorKind kind : kinds) {
         for (const bool shells : {false, true}) {
             integrator.shells = shells;
