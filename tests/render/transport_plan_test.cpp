@@ -222,6 +222,7 @@ TEST_F(Plans, TheUserHasTheLastWord)
     EXPECT_EQ(automatic().depth_flights, 3);
     integrator = {};
 
+    facts.count = 1000000;
     camera.origin = {0, -7000, 0}; // the largest looks 0.68 pixels wide
     integrator.grain_pixels = 0.6;
     EXPECT_TRUE(automatic().has_exemplars());
