@@ -21,6 +21,19 @@ public:
         return mixtures_[by_->type(index, position)]->type(index, position);
     }
 
+    std::optional<std::set<uint32_t>> possible_types() const override
+    {
+        const auto chosen = by_->possible_types();
+        std::set<uint32_t> all;
+        for (uint32_t k = 0; k < mixtures_.size(); ++k) {
+            if (chosen && !chosen->contains(k)) continue;
+            const auto types = mixtures_[k]->possible_types();
+            if (!types) return std::nullopt;
+            all.insert(types->begin(), types->end());
+        }
+        return all;
+    }
+
 private:
     std::unique_ptr<Mixture> by_;
     std::vector<std::unique_ptr<Mixture>> mixtures_;
@@ -32,6 +45,7 @@ public:
     TiledMixture(std::unique_ptr<Mixture> tile, uint64_t size) : tile_(std::move(tile)), size_(size) {}
 
     uint32_t type(uint64_t index, const Imath::V3f& position) const override { return tile_->type(index % size_, position); }
+    std::optional<std::set<uint32_t>> possible_types() const override { return tile_->possible_types(); }
 
 private:
     std::unique_ptr<Mixture> tile_;

@@ -28,6 +28,7 @@ public:
     CheckerboardMixture(const Board& board, std::vector<uint32_t> types, const Imath::V3d& origin);
 
     uint32_t type(uint64_t index, const Imath::V3f& position) const override;
+    std::optional<std::set<uint32_t>> possible_types() const override { return std::set<uint32_t>(types_.begin(), types_.end()); }
 
 private:
     Imath::V3d shift_, cell_, axis_[3];

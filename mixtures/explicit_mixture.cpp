@@ -18,6 +18,13 @@ ExplicitMixture::ExplicitMixture(const std::vector<uint32_t>& types)
     else narrow_.assign(types.begin(), types.end());
 }
 
+std::optional<std::set<uint32_t>> ExplicitMixture::possible_types() const
+{
+    std::set<uint32_t> types(wide_.begin(), wide_.end());
+    types.insert(narrow_.begin(), narrow_.end());
+    return types;
+}
+
 std::unique_ptr<ExplicitMixture> mixture_from_frame(const ParticleFrame& frame, const std::map<int32_t, uint32_t>& type_map,
                                                     const std::string& place)
 {

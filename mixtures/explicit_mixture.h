@@ -21,6 +21,7 @@ public:
     {
         return wide_.empty() ? narrow_[index] : wide_[index];
     }
+    std::optional<std::set<uint32_t>> possible_types() const override;
     uint64_t size() const { return wide_.empty() ? narrow_.size() : wide_.size(); }
 
 private:

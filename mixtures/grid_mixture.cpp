@@ -94,4 +94,12 @@ uint32_t GridMixture::type(uint64_t index, const Imath::V3f& position) const
     return last.value_or(fields_->fields[0].type);
 }
 
+std::optional<std::set<uint32_t>> GridMixture::possible_types() const
+{
+    std::set<uint32_t> types;
+    for (const auto& field : fields_->fields) types.insert(field.type);
+    if (fields_->rest) types.insert(*fields_->rest);
+    return types;
+}
+
 } // namespace scree

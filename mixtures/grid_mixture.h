@@ -36,6 +36,7 @@ public:
     ~GridMixture() override;
 
     uint32_t type(uint64_t index, const Imath::V3f& position) const override;
+    std::optional<std::set<uint32_t>> possible_types() const override;
 
 private:
     struct Fields;

@@ -3,6 +3,8 @@
 #include <Imath/ImathVec.h>
 
 #include <cstdint>
+#include <optional>
+#include <set>
 
 namespace scree {
 
@@ -15,6 +17,9 @@ public:
 
     /// The grain type of sphere `index`, whose centre is `position` in the unit of its frame, relative to its origin.
     virtual uint32_t type(uint64_t index, const Imath::V3f& position) const = 0;
+
+    /// Grain types that type() can return, and maybe more; nothing: not known.
+    virtual std::optional<std::set<uint32_t>> possible_types() const { return std::nullopt; }
 };
 
 } // namespace scree

@@ -24,6 +24,7 @@ public:
         while (k < thresholds_.size() && value >= thresholds_[k]) ++k;
         return types_[k];
     }
+    std::optional<std::set<uint32_t>> possible_types() const override { return std::set<uint32_t>(types_.begin(), types_.end()); }
 
 private:
     FractalNoise noise_;

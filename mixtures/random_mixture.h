@@ -18,6 +18,7 @@ public:
     RandomMixture(std::vector<uint32_t> types, std::span<const double> weights, uint64_t seed, uint64_t stream, SphereIds ids);
 
     uint32_t type(uint64_t index, const Imath::V3f& position) const override;
+    std::optional<std::set<uint32_t>> possible_types() const override { return std::set<uint32_t>(types_.begin(), types_.end()); }
 
 private:
     uint64_t key_;

@@ -48,7 +48,7 @@ const char* kind_name(HitKind kind)
 
 } // namespace
 
-std::vector<PartReport> all_parts(const WorldBuilder& builder, const World& world)
+std::vector<PartReport> all_parts(const WorldBuilder& builder, const World& world, bool is_cropped)
 {
     const TransportPlan& plan = builder.plan();
     const FilmDescription& film = builder.scene().film;
@@ -57,6 +57,12 @@ std::vector<PartReport> all_parts(const WorldBuilder& builder, const World& worl
     std::vector<PartReport> parts{{"explicit grains", plan.has_exemplars(), plan.why}, {"proxies", plan.has_proxies(), plan.has_proxies() ? why_proxies : why_none}};
     parts.insert(parts.end(), builder.parts().begin(), builder.parts().end());
 
+    if (is_cropped) { // a grain out of sight shades those in sight and lights them, so a list keeps it
+        const std::string part = "grains outside the crop";
+        if (!plan.has_grains || plan.replaces_all) parts.push_back({part, false, plan.why});
+        else if (world.fill) parts.push_back({part, false, "none is listed: rays find those that they meet"});
+        else parts.push_back({part, true, "kept: light may come by way of any"});
+    }
     // As the tracer has it; where a medium is to stand for all grains they may be there still.
     const bool enters = plan.needs_gsdfs() || std::ranges::any_of(world.types, [](const GrainType& type) { return type.material.transmits(); });
     const bool cut = enters && world.has_grains() && !plan.replaces_all && !world.surfaces.empty();
@@ -71,13 +77,13 @@ std::vector<PartReport> all_parts(const WorldBuilder& builder, const World& worl
     return parts;
 }
 
-std::string plan_text(const WorldBuilder& builder, const World& world, size_t frame)
+std::string plan_text(const WorldBuilder& builder, const World& world, size_t frame, bool is_cropped)
 {
     const SceneDescription& scene = builder.scene();
     std::string text = fmt::format("{}: {}x{}, integrator {}", scene.file.string(), scene.film.width, scene.film.height, integrator_names[static_cast<size_t>(scene.integrator.kind)]);
     if (scene.integrator.kind == IntegratorKind::automatic) text += fmt::format(", accuracy {}", accuracy_names[static_cast<size_t>(scene.integrator.accuracy)]);
     text += builder.frame_name(frame).empty() ? "\n" : fmt::format(", frame {} of {}: {}\n", frame, builder.frame_count(), builder.frame_name(frame));
-    for (const PartReport& part : all_parts(builder, world)) text += part_text(part);
+    for (const PartReport& part : all_parts(builder, world, is_cropped)) text += part_text(part);
     text += part_text({"acceleration structure", true, "to be built by Embree"});
     const bool none_traced = builder.plan().replaces_all;
     text += fmt::format("  would trace {}{}{} grains of {} types among {} surfaces and {} media under {} lights\n", none_traced ? "a medium in place of " : "", world.fill ? "about " : "",

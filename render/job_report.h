@@ -19,10 +19,11 @@ struct FrameReport {
 };
 
 /// All that was built for the builder's last world, would be, or is skipped, and why, but for the acceleration structure.
-std::vector<PartReport> all_parts(const WorldBuilder& builder, const World& world);
+/// is_cropped: only a part of the picture is asked for.
+std::vector<PartReport> all_parts(const WorldBuilder& builder, const World& world, bool is_cropped);
 
 /// What would be built for this world and what is skipped, and why; a line a part.
-std::string plan_text(const WorldBuilder& builder, const World& world, size_t frame);
+std::string plan_text(const WorldBuilder& builder, const World& world, size_t frame, bool is_cropped);
 
 std::string statistics_text(const FrameReport& report);
 

@@ -79,6 +79,7 @@ nlohmann::json describe_media(const SceneDescription& scene, size_t frame, const
     described.integrator.kind = IntegratorKind::ppt;
     described.integrator.explicit_grains = 0;
     described.integrator.grain_depth.reset();
+    described.integrator.grain_flights.reset();
     described.integrator.shells = false;
     WorldBuilder builder(described);
     const auto world = builder.build(frame, progress);

@@ -80,9 +80,9 @@ PictureMetadata make_metadata(const RenderJob& job, const WorldBuilder& builder,
         metadata.numbers["meanSpp"] = statistics.mean_spp;
     }
     const TransportPlan& plan = builder.plan();
-    if (plan.has_grain_medium) {
+    if (const std::optional<double> depth = builder.medium_depth()) {
         metadata.texts["mediumForm"] = medium_form_names[static_cast<size_t>(plan.medium_form)];
-        if (!plan.replaces_all) metadata.numbers["grainDepth"] = plan.depth_radii;
+        if (!plan.replaces_all) metadata.numbers["grainDepth"] = *depth;
     }
     if (plan.has_shells) metadata.texts["stfForm"] = stf_form_names[static_cast<size_t>(plan.stf_form)];
     if (plan.has_proxies()) metadata.numbers["explicitGrains"] = plan.explicit_grains;
@@ -176,7 +176,7 @@ private:
             return;
         }
         if (job_.plan_only) {
-            fmt::print("{}", plan_text(builder_, *world, frame));
+            fmt::print("{}", plan_text(builder_, *world, frame, job_.crop || job_.pixel_bounds));
             return;
         }
         FrameReport report;
@@ -199,7 +199,7 @@ private:
         Film film = make_film(job_, scene_.film);
         if (options.error > 0) film.keep_halves();
         const std::filesystem::path checkpoint = frame_path(outputs_[0], frame, many) + ".checkpoint";
-        const uint64_t approximation = options.path.explicit_grains * uint64_t{4} + static_cast<uint64_t>(scene_.integrator.accuracy);
+        const uint64_t approximation = hash_plan(builder_.plan());
         const uint64_t estimator = mix64(approximation ^ mix64(options.path.max_depth * uint64_t{4} + static_cast<uint64_t>(options.path.direct_light)));
         const CheckpointKey key{mix64(builder_.scene_hash() ^ estimator ^ std::bit_cast<uint64_t>(options.error)), options.seed};
         if (job_.resume && std::filesystem::exists(checkpoint)) read_checkpoint(checkpoint, film, key);

@@ -21,10 +21,11 @@ struct RenderJob {
     std::filesystem::path scene;
     std::vector<std::string> outputs;       ///< empty: the scene's name with .exr
     std::optional<uint32_t> spp;
-    std::optional<IntegratorKind> integrator; ///< else the scene's, as the next six
+    std::optional<IntegratorKind> integrator; ///< else the scene's, as the next nine
     std::optional<Accuracy> accuracy;
     std::optional<uint32_t> explicit_grains;
     std::optional<double> grain_depth;
+    std::optional<double> grain_pixels, grain_flights, least_shell;
     std::optional<EquivalentForm> medium_form;
     std::optional<bool> shells;
     std::optional<StfForm> stf_form;

@@ -24,6 +24,9 @@ SceneDescription load_scene(const RenderJob& job)
     if (job.grain_depth) integrator.grain_depth = job.grain_depth;
     integrator.medium_form = job.medium_form.value_or(integrator.medium_form);
     integrator.stf_form = job.stf_form.value_or(integrator.stf_form);
+    if (job.grain_pixels) integrator.grain_pixels = job.grain_pixels;
+    if (job.grain_flights) integrator.grain_flights = job.grain_flights;
+    if (job.least_shell) integrator.least_shell = job.least_shell;
     if (job.shells) integrator.shells = job.shells;
     return scene;
 }
@@ -46,7 +49,7 @@ RenderSetup::RenderSetup(const WorldBuilder& builder, std::shared_ptr<const Worl
 
 RenderSetup::RenderSetup(const WorldBuilder& builder, std::shared_ptr<const World> world, const RenderJob& job, int64_t bytes_before, const Stopwatch& watch)
     : world_(std::move(world)), tracer_(builder.device(), *world_), camera_(make_camera(builder.scene(), world_->space)), filter_(builder.scene().film.filter),
-      options_(job.options), parts_(all_parts(builder, *world_))
+      options_(job.options), parts_(all_parts(builder, *world_, job.crop || job.pixel_bounds))
 {
     parts_.push_back({"acceleration structure", true, "Embree", watch.seconds(), static_cast<uint64_t>(std::max<int64_t>(0, builder.device()->bytes() - bytes_before))});
     const SceneDescription& scene = builder.scene();

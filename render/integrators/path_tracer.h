@@ -3,7 +3,7 @@
 #include "render/film/film.h"
 #include "render/sampler.h"
 #include "render/scene/tracer.h"
-#include "render/scene/transport_plan.h"
+#include "render/scene/pixel_size.h"
 
 #include <functional>
 #include <vector>

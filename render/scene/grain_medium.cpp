@@ -180,10 +180,6 @@ bool is_patterned(const World& world, const PackingSample& sample)
     return false;
 }
 
-} // namespace
-
-namespace {
-
 /// sample: of at least a grain.
 GrainMedium make_grain_medium(const World& world, PackingSample sample, EquivalentForm form, const Progress& progress)
 {
@@ -237,14 +233,15 @@ void report_no_core(double below, const PackingSample& sample, const GrainDepth&
     if (depth.all) remarks.push_back("no place is deeper among the grains than one of them: the picture lacks them");
 }
 
-/// core: as deep as the medium begins at least.
-void replace_grains(const GrainMedium& medium, const GrainDepth& depth, Core core, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
+/// core: as deep as the medium begins at least. Returns from how many mean radii on it stands for grains, if anywhere.
+std::optional<double> replace_grains(const GrainMedium& medium, const GrainDepth& depth, Core core, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
 {
     const Stopwatch watch;
     const double radius = medium.sample.mean_radius(), below = depth.all ? core.below : std::max(core.below, depth.flights / medium.medium.sigma_t);
     if (below > core.below) core = {below, surface_below(world, below, progress)};
     std::optional<RegionSurface>& surface = core.surface;
-    if (!core.is_empty()) {
+    const bool is_made = !core.is_empty();
+    if (is_made) {
         const MomentTable table(world.types, medium.sample);
         const LocalMedia media(medium, table);
         MediumRegion region;
@@ -266,6 +263,7 @@ void replace_grains(const GrainMedium& medium, const GrainDepth& depth, Core cor
         report_no_core(below, medium.sample, depth, watch.seconds(), parts, remarks);
     }
     if (depth.all) take_all_grains(world);
+    return is_made ? std::optional(below / radius) : std::nullopt;
 }
 
 } // namespace
@@ -277,25 +275,25 @@ std::optional<GrainMedium> make_grain_medium(const World& world, EquivalentForm 
     return make_grain_medium(world, std::move(sample), form, progress);
 }
 
-void replace_grains(const GrainMedium& medium, const GrainDepth& depth, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
+std::optional<double> replace_grains(const GrainMedium& medium, const GrainDepth& depth, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
 {
     const double below = least_depth(medium.sample, depth);
-    replace_grains(medium, depth, Core{below, surface_below(world, below, progress)}, world, parts, remarks, progress);
+    return replace_grains(medium, depth, Core{below, surface_below(world, below, progress)}, world, parts, remarks, progress);
 }
 
-void replace_grains(EquivalentForm form, const GrainDepth& depth, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
+std::optional<double> replace_grains(EquivalentForm form, const GrainDepth& depth, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
 {
     const char* walk = "walk in the packing";
     const Stopwatch core_watch;
     PackingSample sample = sample_packing(world, sampled, progress);
-    if (sample.grains.empty()) return; // there are none at all
+    if (sample.grains.empty()) return std::nullopt; // there are none at all
     const double below = least_depth(sample, depth);
     Core core{below, surface_below(world, below, progress)};
     if (core.is_empty()) {
         parts.push_back({walk, false, "no medium follows from it"});
         report_no_core(below, sample, depth, core_watch.seconds(), parts, remarks);
         if (depth.all) take_all_grains(world);
-        return;
+        return std::nullopt;
     }
     const Stopwatch watch;
     const GrainMedium medium = make_grain_medium(world, std::move(sample), form, progress);
@@ -305,7 +303,7 @@ void replace_grains(EquivalentForm form, const GrainDepth& depth, World& world, 
     } else {
         parts.push_back({walk, false, "the form of the medium needs none"});
     }
-    replace_grains(medium, depth, std::move(core), world, parts, remarks, progress);
+    return replace_grains(medium, depth, std::move(core), world, parts, remarks, progress);
 }
 
 } // namespace scree

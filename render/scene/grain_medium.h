@@ -33,12 +33,12 @@ struct GrainDepth {
 /// Puts a medium in the place of the grains that are deep enough.
 ///
 /// Of a list of grains the medium varies as they do, of a fill as its mixture does. Reports what was built, or why nothing was. Throws
-/// InputError, Cancelled.
-void replace_grains(const GrainMedium& medium, const GrainDepth& depth, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks,
-                    const Progress& progress);
+/// InputError, Cancelled. Returns from where on it does, in mean radii below every face; nothing where no medium was made.
+std::optional<double> replace_grains(const GrainMedium& medium, const GrainDepth& depth, World& world, std::vector<PartReport>& parts,
+                                     std::vector<std::string>& remarks, const Progress& progress);
 
 /// Makes the medium of a form and puts it in the place of the grains; where no place is deep enough it walks nowhere. As the two above.
-void replace_grains(EquivalentForm form, const GrainDepth& depth, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks,
-                    const Progress& progress);
+std::optional<double> replace_grains(EquivalentForm form, const GrainDepth& depth, World& world, std::vector<PartReport>& parts,
+                                     std::vector<std::string>& remarks, const Progress& progress);
 
 } // namespace scree

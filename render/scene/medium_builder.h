@@ -22,7 +22,9 @@ public:
     /// Reads what has not been read, and the points that bound it, scene coordinates. Throws InputError.
     std::vector<V3d> read();
     /// Whether any medium that was read is somewhere.
-    bool has_any() const { return std::ranges::any_of(meshes_, [](const TriangleMesh& mesh) { return !mesh.triangles.empty(); }); }
+    bool has_any() const { return count() > 0; }
+    /// How many of those that were read are somewhere.
+    size_t count() const { return static_cast<size_t>(std::ranges::count_if(meshes_, [](const TriangleMesh& mesh) { return !mesh.triangles.empty(); })); }
     /// Adds the media to `world`, whose space is set, and a report on each. Returns `hash` with their files mixed in.
     uint64_t build(World& world, const TypeRequest& request, uint64_t hash);
 

@@ -262,9 +262,12 @@ IntegratorDescription read_integrator(const JsonValue& json)
     if (const auto depth = object.find("max_depth")) integrator.max_depth = static_cast<uint32_t>(depth->integer(1, 1000000000));
     if (const auto grains = object.find("explicit_grains")) integrator.explicit_grains = static_cast<uint32_t>(grains->integer(0, 1000000000));
     if (const auto depth = object.find("grain_depth")) integrator.grain_depth = depth->number(0, largest);
+    if (const auto pixels = object.find("grain_pixels")) integrator.grain_pixels = pixels->number(0, largest);
+    if (const auto flights = object.find("grain_flights")) integrator.grain_flights = flights->number(0, largest);
     if (const auto form = object.find("medium_form")) integrator.medium_form = static_cast<EquivalentForm>(form->choice(medium_form_names));
     if (const auto shells = object.find("shells")) integrator.shells = shells->boolean();
     if (const auto form = object.find("stf_form")) integrator.stf_form = static_cast<StfForm>(form->choice(stf_form_names));
+    if (const auto least = object.find("least_shell")) integrator.least_shell = least->number(0, largest);
     object.done();
     return integrator;
 }

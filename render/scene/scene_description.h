@@ -108,12 +108,14 @@ struct IntegratorDescription {
     Accuracy accuracy = Accuracy::standard;
     uint32_t max_depth = 0;       ///< 0: never cut
     std::optional<uint32_t> explicit_grains; ///< auto and ppt: how many grains of a path are traced as they are
-
+    std::optional<double> grain_pixels; ///< auto and ppt, where proxies stand for grains: those that look narrower are proxies from the first on
     std::optional<double> grain_depth; ///< mean radii below every face, from where on a medium stands for the grains; absent: nowhere, or as auto has it
+    std::optional<double> grain_flights; ///< but not fewer mean free paths of that medium; absent: as auto has it, or none with grain_depth
     EquivalentForm medium_form = EquivalentForm::decay;
 
     std::optional<bool> shells;        ///< whether light goes through shells in media; absent: with stf and auto
     StfForm stf_form = StfForm::full;
+    std::optional<double> least_shell; ///< mean free paths that the largest shell of a medium has at least, else it gets none; absent: auto 8, else 1
 };
 
 /// A scene file, read and checked, with paths made absolute; nothing it names has been opened yet.

@@ -1,6 +1,10 @@
 #include "render/scene/transport_plan.h"
 
+#include "mixtures/hash.h"
+
 #include <fmt/format.h>
+
+#include <bit>
 
 namespace scree {
 
@@ -74,6 +78,31 @@ std::string TransportPlan::name() const
     return kind == IntegratorKind::automatic && explicit_grains == all_grains && !has_grain_medium && !has_shells ? "ept" : integrator_names[static_cast<size_t>(kind)];
 }
 
+uint64_t hash_plan(const TransportPlan& plan)
+{
+    uint64_t hash = 0;
+    const auto add = [&hash](uint64_t bits) { hash = mix64(hash ^ bits) + 1; };
+    const auto add_number = [&](double number) { add(std::bit_cast<uint64_t>(number)); };
+    add(static_cast<uint64_t>(plan.accuracy));
+    add(plan.has_proxies());
+    if (plan.has_proxies()) {
+        add(plan.explicit_grains);
+        add_number(plan.least_pixels);
+    }
+    add(plan.has_grain_medium + 2 * plan.replaces_all);
+    if (plan.has_grain_medium) {
+        add(static_cast<uint64_t>(plan.medium_form));
+        add_number(plan.depth_radii);
+        add_number(plan.depth_flights);
+    }
+    add(plan.has_shells);
+    if (plan.has_shells) {
+        add(static_cast<uint64_t>(plan.stf_form));
+        add_number(plan.least_shell);
+    }
+    return hash;
+}
+
 double rough_loss(const Material& material, double radius)
 {
     switch (material.kind) {
@@ -101,6 +130,7 @@ TransportPlan plan_transport(const IntegratorDescription& integrator, const Came
     case IntegratorKind::ept: plan.why = "every grain as it is"; break;
     case IntegratorKind::ppt:
         plan.explicit_grains = integrator.explicit_grains.value_or(0);
+        plan.least_pixels = integrator.grain_pixels.value_or(0);
         plan.why = proxies_after(plan.explicit_grains);
         break;
     case IntegratorKind::stf:
@@ -117,7 +147,7 @@ TransportPlan plan_transport(const IntegratorDescription& integrator, const Came
         else if (facts.encounters() < few_encounters) plan.why = fmt::format("every grain as it is: light meets some {:.2g} of them before it is absorbed", facts.encounters());
         else {
             plan.explicit_grains = switches.explicit_grains;
-            plan.least_pixels = switches.least_pixels;
+            plan.least_pixels = integrator.grain_pixels.value_or(switches.least_pixels);
             plan.why = proxies_after(plan.explicit_grains);
             if (const double pixels = largest_in_pixels(camera, film, facts); plan.explicit_grains > 0 && pixels < plan.least_pixels) {
                 plan.explicit_grains = 0;
@@ -128,22 +158,24 @@ TransportPlan plan_transport(const IntegratorDescription& integrator, const Came
             plan.has_grain_medium = half_thickness(facts) > least_core * plan.depth_radii * facts.mean_radius;
             plan.why_no_medium = fmt::format("hardly a grain is {:g} mean radii deep", plan.depth_radii);
         }
-        if (integrator.explicit_grains) { // as they are, then, however small they look
+        if (integrator.explicit_grains) { // as they are, then, however small they look, unless that is asked for too
             plan.explicit_grains = *integrator.explicit_grains;
-            plan.least_pixels = 0;
+            plan.least_pixels = integrator.grain_pixels.value_or(0);
             plan.why = proxies_after(plan.explicit_grains) + ", as asked for";
         }
         break;
     }
     }
-    if (integrator.grain_depth && !plan.replaces_all && plan.has_grains) {
-        plan.depth_radii = *integrator.grain_depth;
-        plan.depth_flights = 0;
+    if ((integrator.grain_depth || integrator.grain_flights) && !plan.replaces_all && plan.has_grains) {
+        if (integrator.grain_depth) plan.depth_flights = 0;
+        plan.depth_radii = integrator.grain_depth.value_or(plan.depth_radii);
+        plan.depth_flights = integrator.grain_flights.value_or(plan.depth_flights);
         plan.has_grain_medium = half_thickness(facts) > plan.depth_radii * facts.mean_radius;
         plan.why_no_medium = fmt::format("no place is {:g} mean radii deep", plan.depth_radii);
     }
     plan.has_shells = integrator.shells.value_or(integrator.kind == IntegratorKind::stf || (integrator.kind == IntegratorKind::automatic && integrator.accuracy != Accuracy::reference));
     if (integrator.kind == IntegratorKind::automatic && !integrator.shells) plan.least_shell = worthwhile_shell;
+    plan.least_shell = integrator.least_shell.value_or(plan.least_shell);
     if (!plan.has_grains) plan.why = plan.why_no_medium = "the scene has no grains";
     if (plan.has_grain_medium) plan.why_no_medium.clear();
     return plan;

@@ -1,15 +1,13 @@
 #pragma once
 
+#include "render/scene/pixel_size.h"
 #include "render/scene/scene_description.h"
 
 #include <Imath/ImathBox.h>
 
-#include <limits>
 #include <string>
 
 namespace scree {
-
-inline constexpr uint32_t all_grains = std::numeric_limits<uint32_t>::max();
 
 /// What is known of a scene's grains before anything is made of them; lengths in the scene's unit.
 struct GrainFacts {
@@ -51,13 +49,12 @@ struct TransportPlan {
     std::string name() const;
 };
 
+/// Hash of all that makes one plan's samples others than another's, as a checkpoint must tell: every switch of what the plan has, none of what it lacks.
+uint64_t hash_plan(const TransportPlan& plan);
+
 /// Decides. Facts of no grains: the scene has none.
 TransportPlan plan_transport(const IntegratorDescription& integrator, const CameraDescription& camera, const FilmDescription& film, const GrainFacts& facts);
 
-/// How wide a pixel is at a distance along the view from the camera, in the unit of the camera's lengths: at distance 0, and more for each unit.
-struct PixelSize {
-    double width = 0, slope = 0;
-};
 PixelSize pixel_size(const CameraDescription& camera, const FilmDescription& film);
 
 } // namespace scree

@@ -5,13 +5,12 @@
 #include "ingest/triangle_mesh.h"
 #include "ingest/vdb_points.h"
 #include "mixtures/mixture_series.h"
-#include "render/gsdf/gsdf_cache.h"
 #include "render/scene/content_hash.h"
 #include "render/scene/fill_builder.h"
-#include "render/scene/grain_medium.h"
+#include "render/scene/grain_facts.h"
 #include "render/scene/light_builder.h"
 #include "render/scene/medium_builder.h"
-#include "render/scene/shell_builder.h"
+#include "render/scene/planned_media.h"
 #include "render/scene/type_builder.h"
 #include "render/lights/environment_file.h"
 
@@ -52,10 +51,7 @@ struct Bounds {
         }
     }
     bool empty() const { return !(lo.x <= hi.x); }
-    RenderSpace space() const
-    {
-        return empty() ? RenderSpace() : space_of({lo, hi});
-    }
+    RenderSpace space() const { return empty() ? RenderSpace() : space_of({lo, hi}); }
 };
 
 /// The middle of the bounds; or, where a few grains have run so far away that the middle would cost the others their
@@ -108,7 +104,8 @@ struct WorldBuilder::Impl {
     MediumBuilder media{scene};
     std::vector<TriangleMesh> surfaces;
     std::map<size_t, std::shared_ptr<const EnvironmentMap>> maps; // by light
-    std::unique_ptr<StfCache> shells;
+    PlannedShells shells;
+    std::optional<double> medium_depth;
     TransportPlan plan;
     std::vector<PartReport> parts;
     std::vector<std::string> frame_warnings;
@@ -119,12 +116,10 @@ struct WorldBuilder::Impl {
     void decide(const GrainFacts& facts);
     GrainStore make_grains(Spheres spheres, const TypeRequest& request, World& world);
     void make_fill(const TypeRequest& request, World& world);
-    void make_shells(World& world, const Progress& progress, Precompute precompute);
     TriangleMesh read_surface(const SurfaceDescription& surface) const;
     void make_surfaces(World& world);
     LightSet make_lights(const World& world);
     std::shared_ptr<const EnvironmentMap> read_map(size_t light);
-    void replace_grains(World& world, const Progress& progress, Precompute precompute);
     std::optional<MixtureSeries> make_mixtures() const;
     ParticleFrame read_dump(size_t frame, const Progress& progress) const;
 };
@@ -185,24 +180,13 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, const TypeRequest& r
 {
     const ParticleFrame& frame = spheres.frame;
     Bounds bounds; // grains of radius 0 are left out of the world, and so of its bounds
-    GrainFacts facts;
-    double sections = 0;
     std::vector<uint8_t> used(scene.types.size(), 0);
     for (size_t i = 0; i < frame.size(); ++i) {
         if (!(frame.radius[i] > 0)) continue;
         used[spheres.types[i]] = 1;
         bounds.extend(frame.position[i], frame.radius[i]);
-        ++facts.count;
-        facts.mean_radius += frame.radius[i];
-        facts.largest_radius = std::max(facts.largest_radius, double{frame.radius[i]});
-        const double section = double{frame.radius[i]} * frame.radius[i];
-        facts.loss += section * rough_loss(scene.types[spheres.types[i]].material, frame.radius[i]);
-        sections += section;
     }
-    if (sections > 0) facts.loss /= sections;
-    facts.mean_radius /= static_cast<double>(std::max<uint64_t>(1, facts.count));
-    if (!bounds.empty()) facts.bounds = {bounds.lo, bounds.hi};
-    decide(facts);
+    decide(facts_of_list(frame, spheres.types, scene.types));
     if (frame.domain) {
         set_domain(*frame.domain, world);
     } else {
@@ -258,17 +242,12 @@ void WorldBuilder::Impl::make_fill(const TypeRequest& request, World& world)
     const ProceduralFill& spheres = *fill->fill;
     set_domain(spheres.domain().bounds(), world);
     world.fill = std::make_shared<GrainFill>(fill->fill, fill->mixture, world.space);
-    GrainFacts facts{static_cast<uint64_t>(std::ceil(spheres.expected_count())), 0, spheres.largest_radius(), spheres.domain().bounds()};
-    for (uint64_t row = 0; row < spheres.tile().rows(); ++row) facts.mean_radius += spheres.radius(row) / static_cast<double>(spheres.tile().rows());
-    constexpr uint64_t drawn = 4096; // which types there are is up to the mixture
-    for (uint64_t n = 0; n < drawn; ++n) {
-        const uint64_t random = hash_index(n, 0), row = mix64(random) % spheres.tile().rows();
-        const ProceduralFill::Sphere sphere = spheres.sphere(spheres.id(random % spheres.cell_count(), row));
-        facts.loss += rough_loss(scene.types[world.fill->type(spheres.id(random % spheres.cell_count(), row), sphere)].material, spheres.radius(row)) / drawn;
+    decide(facts_of_fill(*world.fill, scene.types));
+    std::vector<uint8_t> used(scene.types.size(), 1);
+    if (const auto possible = fill->mixture->possible_types()) {
+        for (uint32_t type = 0; type < used.size(); ++type) used[type] = possible->contains(type);
     }
-    decide(facts);
-    const std::vector<uint8_t> any(scene.types.size(), 1); // any type may be met
-    hash = types.build(scene.types, any, request, world, hash);
+    hash = types.build(scene.types, used, request, world, hash);
     hash = hash_mesh(spheres.domain().mesh(), hash);
     hash = hash_vector(spheres.tile().radius, hash_vector(spheres.tile().type, hash));
     for (const auto& variant : spheres.tile().variants) hash = hash_vector(variant, hash);
@@ -325,51 +304,6 @@ std::shared_ptr<const EnvironmentMap> WorldBuilder::Impl::read_map(size_t light)
     return map;
 }
 
-/// Puts a medium in the place of grains where that is planned.
-void WorldBuilder::Impl::replace_grains(World& world, const Progress& progress, Precompute precompute)
-{
-    const auto skip = [&](const char* part, const std::string& why) { parts.push_back({part, false, why}); };
-    if (!plan.has_grain_medium || !world.has_grains()) return skip("medium of the grains", world.has_grains() ? plan.why_no_medium : "the scene has no grains");
-    const bool all = plan.replaces_all;
-    const GrainDepth depth{all, plan.depth_radii, plan.depth_flights};
-    hash = hash_bytes(&plan.depth_radii, sizeof plan.depth_radii, mix64(hash + static_cast<uint64_t>(plan.medium_form) + 16 * all));
-    if (all && scene.integrator.grain_depth) frame_warnings.push_back("grain_depth has no effect with vpt and stf, which trace no grains");
-    if (precompute == Precompute::never) {
-        if (needs_walk(plan.medium_form)) parts.push_back({"walk in the packing", true, "to be walked"});
-        else skip("walk in the packing", "the form of the medium needs none");
-        parts.push_back({"medium of the grains", true, all ? "to be made, in place of all grains" : fmt::format("to be made, where there is a place {:g} mean radii below every face", plan.depth_radii)});
-        return;
-    }
-    scree::replace_grains(plan.medium_form, depth, world, parts, frame_warnings, progress);
-}
-
-/// Finds how far places in media are from everything, and the shells that light may go through there.
-void WorldBuilder::Impl::make_shells(World& world, const Progress& progress, Precompute precompute)
-{
-    const auto skip = [&](const char* part, const char* why) { parts.push_back({part, false, why}); };
-    constexpr const char* distances = "distances within media";
-    constexpr const char* none = "there is no medium";
-    constexpr const char* unknown = "grains, or a spherical light, may be met in it";
-    constexpr const char* stepwise = "light is followed from scattering to scattering in media";
-    hash = mix64(hash ^ (plan.has_shells ? 2 + static_cast<uint64_t>(plan.stf_form) : 1));
-    if (precompute == Precompute::never && (plan.has_grain_medium || media.has_any())) {
-        const bool known = plan.replaces_all || !world.has_grains() || !media.has_any();
-        if (known) parts.push_back({distances, true, "to be found, unless a spherical light may be met in a medium"});
-        else skip(distances, unknown);
-        if (plan.has_shells && known) parts.push_back({"shells", true, "to be made, where a medium is thicker than a mean free path"});
-        else skip("shells", plan.has_shells ? unknown : stepwise);
-        return;
-    }
-    const Stopwatch watch;
-    world.clearance = make_clearance(world, progress);
-    if (world.clearance) parts.push_back({distances, true, "from all that may be met there", watch.seconds(), world.clearance->bytes()});
-    else skip(distances, world.regions.empty() ? none : unknown);
-    if (world.regions.empty()) return skip("shells", none);
-    if (!plan.has_shells) return skip("shells", stepwise);
-    if (!shells) shells = std::make_unique<StfCache>(cache_folder(), stf_options(plan.accuracy));
-    add_shells(plan.stf_form, plan.least_shell, *shells, world, parts, frame_warnings, progress);
-}
-
 LightSet WorldBuilder::Impl::make_lights(const World& world)
 {
     std::vector<Light> lights;
@@ -414,6 +348,7 @@ WorldBuilder::~WorldBuilder() = default;
 const SceneDescription& WorldBuilder::scene() const { return impl_->scene; }
 size_t WorldBuilder::frame_count() const { return impl_->series ? impl_->series->frame_count() : 1; }
 const TransportPlan& WorldBuilder::plan() const { return impl_->plan; }
+std::optional<double> WorldBuilder::medium_depth() const { return impl_->medium_depth; }
 const std::vector<PartReport>& WorldBuilder::parts() const { return impl_->parts; }
 uint64_t WorldBuilder::scene_hash() const { return impl_->hash; }
 std::shared_ptr<const EmbreeDevice> WorldBuilder::device() const { return impl_->device; }
@@ -455,9 +390,12 @@ std::shared_ptr<const World> WorldBuilder::build(size_t frame, const Progress& p
     impl_->make_surfaces(*world);
     impl_->hash = impl_->media.build(*world, request, impl_->hash);
     if (impl_->scene.media.empty()) impl_->parts.push_back({"medium", false, "the scene has none"});
-    impl_->replace_grains(*world, progress, precompute);
+    if (impl_->plan.replaces_all && (impl_->scene.integrator.grain_depth || impl_->scene.integrator.grain_flights)) {
+        impl_->frame_warnings.push_back("grain_depth and grain_flights have no effect with vpt and stf, which trace no grains");
+    }
+    impl_->medium_depth = make_planned_medium(request, *world);
     world->lights = impl_->make_lights(*world);
-    impl_->make_shells(*world, progress, precompute);
+    impl_->shells.make(request, impl_->media, *world);
     return world;
 }
 

@@ -7,6 +7,7 @@
 #include "render/scene/world.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,11 @@ public:
 
     /// Reads frame `frame` and everything it needs. Throws InputError, or Cancelled from within what is precomputed.
     std::shared_ptr<const World> build(size_t frame, const Progress& progress = {}, Precompute precompute = Precompute::now);
+    /// Of the last world built.
+    const TransportPlan& plan() const;
+    /// Mean radii below every face from where on a medium stands for grains of the last world built; nothing: none does.
+    std::optional<double> medium_depth() const;
     /// The parts of the last world built, in order.
-    const TransportPlan& plan() const; ///< of the frame built last
     const std::vector<PartReport>& parts() const;
     /// Hash of the scene's text and of what the last world was built from.
     uint64_t scene_hash() const;

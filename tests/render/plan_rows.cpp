@@ -72,6 +72,9 @@ std::map<std::string, std::string> plan_scenes()
         {"lamp", R"("lights": [{"kind": "rectangle", "corner": [0, 0, 9], "edges": [[1, 0, 0], [0, 1, 0]], "radiance": 10}])"},
         {"sky map", R"("lights": [{"kind": "environment", "file": "sky.exr"}])"},
         {"fill", filled("ball.obj", "0.07", "")},
+        {"fill of one type", filled("ball.obj", "0.07", ", " + type("b", mesh, glass))},
+        {"fill of a mixture", R"("lights": [], "grains": {"types": {)" + bright + ", " + type("b", ball, lambert(0.5)) + ", " + type("c", mesh, glass) +
+            R"(}, "mixture": {"kind": "random", "types": ["a", "b", "c"], "weights": [1, 1, 0]}, "assembly": {"fill": "ball.obj", "tile": "tile.vdb", "radius": 0.07}})"},
         {"pattern", R"("lights": [], "grains": {"types": {)" + bright + ", " + type("b", ball, lambert(0.5)) +
             R"(}, "mixture": {"kind": "perlin", "types": ["a", "b"], "scale": 1}, "assembly": {"fill": "slab.obj", "tile": "tile.vdb", "radius": 0.07}})"},
     };
@@ -132,6 +135,9 @@ std::vector<PlanRow> plan_rows()
     planned("no size", "no size", {}, inside, false, "no path");
     planned("cubes", "cubes", {}, "exemplar 'a'", true, "12 triangles");
     planned("library", "library", {}, "exemplar 'a'", true, "triangles of the library's sugar");
+    for (const char* part : {"exemplar 'b'", "gsdf 'b'"}) planned("not in the tile", "fill of one type", ppt, part, false, "no grain has this type");
+    for (const char* part : {"exemplar 'c'", "gsdf 'c'"}) planned("not in the mixture", "fill of a mixture", ppt, part, false, "no grain has this type");
+    planned("in the mixture", "fill of a mixture", ppt, "gsdf 'b'", true, "to be traced");
     planned("no proxies", "cubes", {}, "gsdf 'a'", false, "no grain is a proxy, and no medium stands for any");
     for (const Arguments& how : {ppt, vpt, stf}) {
         planned("only for gsdfs", "cubes", how, "exemplar 'a'", false, "no grain is traced as it is");
@@ -144,6 +150,12 @@ std::vector<PlanRow> plan_rows()
     traced("again", "ten", ppt, "gsdf 'a'", true, "from the cache, ");
     planned("again", "ten", with(ppt, {"--seed", "2"}), "gsdf 'a'", true, "from the cache, ");
     traced("grains", "ten", {}, "grains", true, "10 of 10 spheres read");
+    const Arguments crop{"--cropwindow", "0,0.5,0,1"};
+    planned("crop", "ten", crop, "grains outside the crop", true, "kept: light may come by way of any");
+    traced("crop", "ten", crop, "grains outside the crop", true, "kept: light may come by way of any");
+    planned("crop", "fill", crop, "grains outside the crop", false, "none is listed: rays find those that they meet");
+    planned("crop", "bed", with(vpt, crop), "grains outside the crop", false, "a medium stands for all grains");
+    planned("crop", "slab", crop, "grains outside the crop", false, "the scene has no grains");
     planned("fill", "fill", {}, "domain", true, "320 triangles, checked");
     planned("fill", "fill", {}, "tile", true, "tile.vdb: 64 spheres, 1 variants");
     planned("fill", "fill", {}, "fill", true, "spheres of mean radius 0.07");
@@ -186,8 +198,13 @@ std::vector<PlanRow> plan_rows()
     planned("empty", "empty cloud", {}, "shells", false, "there is no medium");
     planned("empty", "empty cloud", {}, distances, false, "there is no medium");
     planned("to come", "slab", {}, distances, true, "to be found");
-    planned("to come", "slab", {}, "shells", true, "to be made, where a medium is thicker than a mean free path");
+    planned("to come", "cloud", {}, "shells", true, "to be made, where one of 8 mean free paths fits in a medium");
+    planned("to come", "slab", stf, "shells", true, "to be made, where one of 1 mean free paths fits in a medium");
+    planned("to come", "slab", {"--least-shell", "2"}, "shells", true, "to be made, where one of 2 mean free paths fits in a medium");
     planned("to come", "bed", stf, "shells", true, "to be made");
+    planned("small shells", "slab", {}, "shells", false, "none can have more than 2.5 mean free paths, of use are 8 and more");
+    planned("thin", "thin slab", stf, "shells", false, "none can have more than 0.0005 mean free paths, of use are 1 and more");
+    planned("coloured", "coloured slab", stf, "shells", false, "the extinction of every medium depends on the channel");
     planned("stepwise", "slab", vpt, "shells", false, "light is followed from scattering to scattering in media");
     planned("among grains", "slab among grains", {}, distances, false, "grains, or a spherical light, may be met in it");
     planned("among grains", "slab among grains", {}, "shells", false, "grains, or a spherical light, may be met in it");

@@ -230,6 +230,11 @@ TEST(SceneDescription, ReadsIntegrators)
     EXPECT_EQ(scene.integrator.max_depth, 7u);
     EXPECT_EQ(read_with(R"("integrator": {})").integrator.kind, IntegratorKind::automatic);
     EXPECT_EQ(read_with(R"("integrator": {"kind": "ppt", "explicit_grains": 2})").integrator.explicit_grains, 2u);
+    const IntegratorDescription switches = read_with(R"("integrator": {"grain_pixels": 0.5, "grain_flights": 2, "least_shell": 4})").integrator;
+    EXPECT_EQ(switches.grain_pixels, 0.5);
+    EXPECT_EQ(switches.grain_flights, 2);
+    EXPECT_EQ(switches.least_shell, 4);
+    EXPECT_FALSE(IntegratorDescription().grain_pixels || IntegratorDescription().grain_flights || IntegratorDescription().least_shell);
     EXPECT_FALSE(scene.integrator.shells) << "as the integrator has it";
     EXPECT_EQ(scene.integrator.stf_form, StfForm::full);
     const IntegratorDescription stf = read_with(R"("integrator": {"kind": "stf", "shells": false, "stf_form": "diffusion"})").integrator;
@@ -391,6 +396,9 @@ const std::vector<Wrong> wrong_scenes{
     {R"("medium": [{"mesh": "slab.off", "sigma_t": 1, "g": 1}])", "/medium/0/g", "1", "above -1 and below 1", ""},
     {R"("medium": [{"mesh": "slab.off", "sigma_t": 1, "density": "rho"}])", "/medium/0", "'density'", "", ""},
     {R"("medium": [{"vdb": "cloud.vdb", "interpolation": "cubic"}])", "/medium/0/interpolation", "cubic", "linear, nearest", ""},
+    {R"("integrator": {"grain_pixels": -1})", "/integrator/grain_pixels", "-1", "0..", ""},
+    {R"("integrator": {"grain_flights": -1})", "/integrator/grain_flights", "-1", "0..", ""},
+    {R"("integrator": {"least_shell": -1})", "/integrator/least_shell", "-1", "0..", ""},
     {R"("integrator": {"grain_depth": -1})", "/integrator/grain_depth", "-1", "0..", ""},
     {R"("integrator": {"medium_form": "wlk"})", "/integrator/medium_form", "wlk", "plain, formula, walk, decay", "did you mean 'walk'?"},
     {R"("integrator": {"kind": "epd"})", "/integrator/kind", "\"epd\"", "auto, ept, ppt, vpt", "did you mean 'ept'?"},

@@ -120,7 +120,7 @@ BAD_CHANGES = [
     (("grains", "mixture"), {"kind": "random", "types": []}), (("grains", "mixture"), 3), (("grains", "mixture", "seed"), 1), (("grains", "mixture"), {"file": ""}),
     (("grains", "seed"), 1),
     (("medium", 0, "sigma_t"), REMOVE), (("medium", 0, "mesh"), REMOVE), (("medium", 0, "g"), 1), (("medium", 0, "albedo"), 1.1), (("medium", 0, "sigma_t"), -1),
-    (("medium", 0, "density"), "density"), (("integrator", "grain_depth"), -1), (("integrator", "medium_form"), "best"),
+    (("medium", 0, "density"), "density"), (("integrator", "grain_depth"), -1), (("integrator", "grain_pixels"), -1), (("integrator", "grain_flights"), -1), (("integrator", "least_shell"), -1), (("integrator", "medium_form"), "best"),
     (("integrator", "kind"), "sft"), (("integrator", "shells"), "on"), (("integrator", "shells"), 1), (("integrator", "stf_form"), "best"), (("integrator", "stf_form"), True), (("integrator", "shels"), True),
     (("medium",), [{"mesh": "slab.off"}]), (("medium",), {}), (("integrator",), "ept"), (("integrator", "kind"), "epd"), (("integrator", "explicit_grains"), -1), (("integrator", "accuracy"), "best"),
     (("integrator", "max_depth"), 0), (("integrator", "max_depth"), 1.5), (("integrator", "depth"), 3), (("$schema",), 3), (("lihgts",), []),

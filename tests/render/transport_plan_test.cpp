@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <set>
+
 namespace scree {
 namespace {
 
@@ -210,6 +212,35 @@ TEST_F(Plans, TheUserHasTheLastWord)
     EXPECT_EQ(plan(IntegratorKind::ept).why_no_medium, "no place is 60 mean radii deep");
     integrator = {};
 
+    integrator.grain_flights = 3; // and as many radii as the accuracy has it
+    EXPECT_EQ(automatic().depth_radii, 4);
+    EXPECT_EQ(automatic().depth_flights, 3);
+    EXPECT_TRUE(plan(IntegratorKind::ppt).has_grain_medium);
+    EXPECT_FALSE(plan(IntegratorKind::vpt).depth_flights > 0) << "begins at the faces";
+    integrator.grain_depth = 10;
+    EXPECT_EQ(automatic().depth_radii, 10);
+    EXPECT_EQ(automatic().depth_flights, 3);
+    integrator = {};
+
+    facts.count = 1000000;
+    camera.origin = {0, -7000, 0}; // the largest looks 0.68 pixels wide
+    integrator.grain_pixels = 0.6;
+    EXPECT_TRUE(automatic().has_exemplars());
+    EXPECT_EQ(automatic().least_pixels, 0.6);
+    EXPECT_EQ(plan(IntegratorKind::ppt).least_pixels, 0.6);
+    integrator.explicit_grains = 2;
+    EXPECT_EQ(automatic().least_pixels, 0.6);
+    EXPECT_EQ(plan(IntegratorKind::ept).least_pixels, 0) << "has no proxies";
+    integrator = {};
+
+    EXPECT_EQ(automatic().least_shell, 8);
+    EXPECT_EQ(plan(IntegratorKind::stf).least_shell, 1);
+    integrator.shells = true;
+    EXPECT_EQ(automatic().least_shell, 1);
+    integrator.least_shell = 3;
+    for (const IntegratorKind kind : kinds) EXPECT_EQ(plan(kind).least_shell, 3);
+    integrator = {};
+
     for (const IntegratorKind kind : kinds) {
         for (const bool shells : {false, true}) {
             integrator.shells = shells;
@@ -242,6 +273,44 @@ TEST_F(Plans, WithoutGrainsThereIsNothingForThem)
             }
         }
     }
+}
+
+TEST_F(Plans, EverySwitchTellsEstimatorsApart)
+{
+    TransportPlan plan = automatic();
+    ASSERT_TRUE(plan.has_proxies() && plan.has_grain_medium && plan.has_shells);
+    std::vector<uint64_t> hashes{hash_plan(plan)};
+    const auto with = [&](const auto& change) {
+        TransportPlan other = plan;
+        change(other);
+        hashes.push_back(hash_plan(other));
+    };
+    with([](TransportPlan& p) { p.accuracy = Accuracy::high; });
+    with([](TransportPlan& p) { p.explicit_grains = 2; });
+    with([](TransportPlan& p) { p.explicit_grains = all_grains; });
+    with([](TransportPlan& p) { p.least_pixels = 0; });
+    with([](TransportPlan& p) { p.has_grain_medium = false; });
+    with([](TransportPlan& p) { p.replaces_all = true; });
+    with([](TransportPlan& p) { p.depth_radii = 5; });
+    with([](TransportPlan& p) { p.depth_flights = 0; });
+    with([](TransportPlan& p) { p.medium_form = EquivalentForm::formula; });
+    with([](TransportPlan& p) { p.has_shells = false; });
+    with([](TransportPlan& p) { p.stf_form = StfForm::diffusion; });
+    with([](TransportPlan& p) { p.least_shell = 1; });
+    EXPECT_EQ(std::set<uint64_t>(hashes.begin(), hashes.end()).size(), hashes.size());
+}
+
+TEST_F(Plans, SwitchesOfWhatAPlanLacksAreNone)
+{
+    facts.count = 10;
+    integrator.shells = false;
+    TransportPlan plan = automatic();
+    const uint64_t hash = hash_plan(plan);
+    EXPECT_EQ(hash, hash_plan(this->plan(IntegratorKind::ept))) << "auto is ept here";
+    plan.least_shell = plan.depth_flights = plan.least_pixels = 77;
+    EXPECT_EQ(hash_plan(plan), hash);
+    integrator.shells = true; // the same shells, but larger ones only
+    EXPECT_NE(hash_plan(automatic()), hash);
 }
 
 TEST(RoughLoss, IsOfTheBrightestChannel)
