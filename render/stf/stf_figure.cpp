@@ -14,7 +14,8 @@ constexpr int rows = static_cast<int>(ShellMaps::rows);
 const std::vector<std::string> caption{"down: theta_t, degrees   across: radius of the shell, mean free paths",
                                        "in a disc: sin beta from the middle, gamma around; right is growing theta_t",
                                        "below a disc: its peak, over a cosine hemisphere's",
-                                       "cos: mean cosine to the normal; L1: of cos^2, from a cosine hemisphere's"};
+                                       "cos: mean cosine to the normal; L1: of cos^2, from a cosine hemisphere's",
+                                       "large shells shine as a half-space does from deep within (Milne): cos 0.7104"};
 
 /// Where everything stands.
 struct Layout {

@@ -1,14 +1,13 @@
 // `scree grains gsdf` as a user meets it: the built program, its exit codes, messages, files and cache.
 
 #include "tests/builders/shapes.h"
-#include "tests/ingest/test_files.h"
+#include "tests/render/cached_command.h"
 #include "tests/render/scene_files.h"
 #include "tests/render/scree_process.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdlib>
 #include <fstream>
 
 namespace scree {
@@ -20,22 +19,8 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-class GsdfCommand : public testing::Test {
+class GsdfCommand : public CachedCommand {
 protected:
-    GsdfCommand()
-    {
-        std::filesystem::create_directory(folder_.path("cache"));
-        setenv("SCREE_CACHE", folder_.path("cache").c_str(), 1);
-    }
-    ~GsdfCommand() override { unsetenv("SCREE_CACHE"); }
-
-    std::string path(const std::string& name) const { return folder_.path(name).string(); }
-    std::vector<std::filesystem::path> stored() const
-    {
-        std::vector<std::filesystem::path> files;
-        for (const auto& entry : std::filesystem::directory_iterator(folder_.path("cache"))) files.push_back(entry.path());
-        return files;
-    }
     static ProgramRun gsdf(std::vector<std::string> arguments, const std::string& error = "0.2")
     {
         arguments.insert(arguments.begin(), {"grains", "gsdf", "--error", error});
@@ -57,8 +42,6 @@ protected:
         EXPECT_EQ(run.out, "");
         EXPECT_TRUE(stored().empty());
     }
-
-    TemporaryFolder folder_;
 };
 
 TEST_F(GsdfCommand, TracesOnceAndThenFindsIt)

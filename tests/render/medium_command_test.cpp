@@ -1,7 +1,7 @@
 // Media as a user meets them: scenes with media, `--grain-depth`, `--integrator vpt` and `scree info --medium`, by the built program.
 
 #include "tests/builders/shapes.h"
-#include "tests/ingest/test_files.h"
+#include "tests/render/cached_command.h"
 #include "tests/render/scene_files.h"
 #include "tests/render/scree_process.h"
 
@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <openvdb/openvdb.h>
 
-#include <cstdlib>
 #include <fstream>
 
 namespace scree {
@@ -20,18 +19,11 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-class MediumCommand : public testing::Test {
+class MediumCommand : public CachedCommand {
 protected:
-    MediumCommand()
-    {
-        std::filesystem::create_directory(folder_.path("cache"));
-        setenv("SCREE_CACHE", folder_.path("cache").c_str(), 1);
-        write("slab.obj", obj_text(box_mesh({-4, -4, -1}, {4, 4, 0})));
-    }
-    ~MediumCommand() override { unsetenv("SCREE_CACHE"); }
+    MediumCommand() { write("slab.obj", obj_text(box_mesh({-4, -4, -1}, {4, 4, 0}))); }
 
     void write(const std::string& name, const std::string& text) const { std::ofstream(folder_.path(name)) << text; }
-    std::string path(const std::string& name) const { return folder_.path(name).string(); }
     /// Writes a scene looking at the origin under a white sky, with these keys besides.
     std::string scene(const std::string& keys) const
     {
@@ -62,8 +54,6 @@ protected:
         EXPECT_EQ(run.status, 0) << run.err;
         return run.status == 0 ? json::parse(run.out) : json();
     }
-
-    TemporaryFolder folder_;
 };
 
 TEST_F(MediumCommand, TellsAMediumInTheUnitOfTheScene)

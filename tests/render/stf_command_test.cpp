@@ -1,12 +1,10 @@
 // `scree grains stf` as a user meets it: the built program, its exit codes, messages, files and cache.
 
-#include "tests/ingest/test_files.h"
+#include "tests/render/cached_command.h"
 #include "tests/render/scree_process.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
-
-#include <cstdlib>
 
 namespace scree {
 namespace {
@@ -15,17 +13,8 @@ using namespace test;
 using nlohmann::json;
 using testing::HasSubstr;
 
-class StfCommand : public testing::Test {
+class StfCommand : public CachedCommand {
 protected:
-    StfCommand()
-    {
-        std::filesystem::create_directory(folder_.path("cache"));
-        setenv("SCREE_CACHE", folder_.path("cache").c_str(), 1);
-    }
-    ~StfCommand() override { unsetenv("SCREE_CACHE"); }
-
-    std::string path(const std::string& name) const { return folder_.path(name).string(); }
-    bool has_stored() const { return std::filesystem::directory_iterator(folder_.path("cache")) != std::filesystem::directory_iterator(); }
     static ProgramRun stf(std::vector<std::string> arguments)
     {
         arguments.insert(arguments.begin(), {"grains", "stf", "--accuracy", "draft", "-q"});
@@ -38,9 +27,6 @@ protected:
         EXPECT_EQ(run.status, 0) << run.err;
         return json::parse(run.out);
     }
-
-private:
-    TemporaryFolder folder_;
 };
 
 TEST_F(StfCommand, PartsOfLightSumToAllOfIt)
@@ -74,7 +60,7 @@ TEST_F(StfCommand, TakesGrainsFromTheCacheAndSaysTheSameAgain)
     EXPECT_TRUE(first[0]["shells"][0]["made"]);
     EXPECT_FALSE(again[0]["shells"][0]["made"]);
     EXPECT_EQ(first[0]["shells"][2]["single"], again[0]["shells"][2]["single"]);
-    EXPECT_TRUE(has_stored());
+    EXPECT_FALSE(stored().empty());
 }
 
 TEST_F(StfCommand, PrintsATableAndDrawsAFigure)
@@ -102,7 +88,7 @@ TEST_F(StfCommand, RefusesWhatCannotBe)
         EXPECT_EQ(run.status, 2) << testing::PrintToString(arguments);
         EXPECT_THAT(run.err, HasSubstr(said));
         EXPECT_EQ(run.out, "");
-        EXPECT_FALSE(has_stored());
+        EXPECT_TRUE(stored().empty());
     }
 }
 
