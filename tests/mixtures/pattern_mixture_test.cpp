@@ -1,5 +1,8 @@
+#include "mixtures/blend_mixture.h"
 #include "mixtures/checkerboard_mixture.h"
+#include "mixtures/explicit_mixture.h"
 #include "mixtures/hash.h"
+#include "mixtures/single_mixture.h"
 #include "tests/builders/statistics.h"
 #include "tests/ingest/test_files.h"
 #include "tests/mixtures/mixture_builders.h"
@@ -17,6 +20,22 @@ using Imath::V3d;
 using Imath::V3f;
 
 uint32_t type_at(const Mixture& mixture, const V3f& place, uint64_t index = 0) { return mixture.type(index, place); }
+
+TEST(PossibleTypes, AreThoseThatAMixtureCanGive)
+{
+    const auto possible = [](const std::string& json) { return test::mixture_of(json, nullptr)->possible_types(); };
+    using Types = std::set<uint32_t>;
+    EXPECT_EQ(possible(R"({"kind": "checkerboard", "types": ["a", "c"], "cell": 2})"), (Types{0, 2}));
+    EXPECT_EQ(possible(R"({"kind": "perlin", "types": ["b", "c"], "scale": 1})"), (Types{1, 2}));
+    EXPECT_EQ(possible(R"({"kind": "random", "types": ["a", "b", "c"], "weights": [1, 0, 1]})"), (Types{0, 2})) << "no sphere draws what weighs nothing";
+    EXPECT_EQ(possible(R"("b")"), Types{1});
+    EXPECT_EQ(ExplicitMixture(std::vector<uint32_t>{7, 300, 7}).possible_types(), (Types{7, 300}));
+    EXPECT_EQ(ExplicitMixture(std::vector<uint8_t>{2, 0, 2}).possible_types(), (Types{0, 2}));
+    std::vector<std::unique_ptr<Mixture>> inner;
+    inner.push_back(std::make_unique<SingleMixture>(4));
+    inner.push_back(std::make_unique<SingleMixture>(5));
+    EXPECT_EQ(BlendMixture(std::make_unique<SingleMixture>(1), std::move(inner)).possible_types(), Types{5}) << "the other is never asked";
+}
 
 TEST(Checkerboard, CellsTakeTurns)
 {

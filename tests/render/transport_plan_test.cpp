@@ -1,5 +1,6 @@
 // What transport is planned: every branch of the integrators and accuracies, and what the user sets.
 
+#include "render/scene/grain_facts.h"
 #include "render/scene/transport_plan.h"
 
 #include <gmock/gmock.h>
@@ -311,6 +312,28 @@ TEST_F(Plans, SwitchesOfWhatAPlanLacksAreNone)
     EXPECT_EQ(hash_plan(plan), hash);
     integrator.shells = true; // the same shells, but larger ones only
     EXPECT_NE(hash_plan(automatic()), hash);
+}
+
+TEST(FactsOfList, WeighWhatGrainsAbsorbByCrossSection)
+{
+    std::vector<GrainTypeDescription> types(2);
+    types[0].material.reflectance = {0.9f, 0.9f, 0.9f};
+    types[1].material.reflectance = {0.5f, 0.5f, 0.5f};
+    ParticleFrame frame;
+    frame.position = {V3d(0), V3d(10, 0, 0), V3d(-99, 0, 0)};
+    frame.radius = {3, 1, 0};
+    frame.id = {0, 1, 2};
+    const GrainFacts facts = facts_of_list(frame, {0, 1, 1}, types);
+    EXPECT_EQ(facts.count, 2u) << "but for the one without a size";
+    EXPECT_EQ(facts.mean_radius, 2);
+    EXPECT_EQ(facts.largest_radius, 3);
+    EXPECT_NEAR(facts.loss, (9 * 0.1 + 1 * 0.5) / 10, 1e-6);
+    EXPECT_EQ(facts.bounds.min, V3d(-3));
+    EXPECT_EQ(facts.bounds.max, V3d(11, 3, 3));
+    const GrainFacts none = facts_of_list({}, {}, types);
+    EXPECT_EQ(none.count, 0u);
+    EXPECT_EQ(none.mean_radius, 0);
+    EXPECT_TRUE(none.bounds.isEmpty());
 }
 
 TEST(RoughLoss, IsOfTheBrightestChannel)
