@@ -2,6 +2,7 @@
 
 #include "render/bench/stress/stress_scene.h"
 #include "render/render_loop.h"
+#include "render/scene/transport_plan.h"
 
 #include <memory>
 #include <optional>
