@@ -11,7 +11,6 @@
 #include "render/scene/light_builder.h"
 #include "render/scene/medium_builder.h"
 #include "render/scene/planned_media.h"
-#include "render/scene/type_builder.h"
 #include "render/lights/environment_file.h"
 
 #include <fmt/format.h>
@@ -19,8 +18,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
-#include <optional>
 
 namespace scree {
 
