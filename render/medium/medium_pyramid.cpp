@@ -10,7 +10,6 @@ namespace {
 
 constexpr double most_cells = 1 << 20;   ///< of the first level
 constexpr double finest_samples = 0.75;  ///< apart, in voxels: what a voxel holds is seen wherever cubes begin
-constexpr float thin = 0.5f;             ///< mean free paths: what is in such a cube averages out
 
 } // namespace
 
@@ -58,7 +57,7 @@ MediumPyramid::Cell MediumPyramid::cell_at(const GridMedium& medium, const V3d& 
     return cell;
 }
 
-MediumPyramid::MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, double tolerance, const Progress& progress) : tolerance_(tolerance)
+MediumPyramid::MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, double tolerance, double thin, const Progress& progress) : tolerance_(tolerance)
 {
     const V3d extent = box.size();
     if (box.isEmpty() || !(extent.x > 0 && extent.y > 0 && extent.z > 0)) return;

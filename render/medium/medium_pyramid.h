@@ -17,12 +17,13 @@ struct MediumMean {
 };
 
 /// Means of an achromatic medium of grids over cubes of growing size, and how much it varies within: where it counts as the same for light that goes
-/// a long way. What varies over less than half a mean free path averages out, and does not count.
+/// a long way. What varies over a short way averages out, and does not count.
 class MediumPyramid {
 public:
     /// box: where places will be asked about; render coordinates. tolerance: of sigma_t, 1 - albedo and 1 - g, as parts of their means: what the means of
-    /// eight parts of a cube may be off by, and twice the standard deviation of all that is in it. Throws Cancelled.
-    MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, double tolerance, const Progress& progress);
+    /// eight parts of a cube may be off by, and twice the standard deviation of all that is in it. thin: mean free paths across cubes in which what varies does
+    /// not count. Throws Cancelled.
+    MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, double tolerance, double thin, const Progress& progress);
 
     /// Whether the medium is the same in a ball, within the tolerance; mean: over the ball, about.
     bool is_same(const V3d& centre, double radius, MediumMean& mean) const;

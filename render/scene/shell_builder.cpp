@@ -12,6 +12,8 @@ namespace {
 constexpr double largest_radius = 1024; ///< mean free paths
 
 constexpr double tolerance = 0.1;       ///< within which a medium of grids counts as the same in a shell
+constexpr double thin = 0.5;            ///< mean free paths over which what varies averages out
+constexpr double thin_grains = 16;      ///< likewise where grains are: cubes that hold hundreds of them differ by chance, which the medium is measured with
 constexpr double g_step = 1.3;          ///< of 1 - g, where it varies: the same for all scenes, so that they share tables
 
 /// How many shells there is use for. inside: no shell in there is larger.
@@ -99,7 +101,7 @@ void add_shells(StfForm form, double least, StfCache& cache, World& world, std::
             albedo = max_component(region.homogeneous->albedo());
             g_low = g_high = region.homogeneous->phase().mean_cosine();
         } else {
-            pyramid = std::make_unique<MediumPyramid>(*region.grid, box, tolerance, progress);
+            pyramid = std::make_unique<MediumPyramid>(*region.grid, box, tolerance, region.instead_of_grains ? thin_grains : thin, progress);
             const MediumPyramid::Extremes& extremes = pyramid->extremes();
             sigma_t = extremes.sigma_t_high;
             albedo = extremes.albedo_high;
