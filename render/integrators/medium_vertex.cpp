@@ -83,19 +83,19 @@ bool Path::step_through_media(Hit& met)
     ++result_.segments;
     Crossing crossing;
     Hit hit;
-    const auto look = [&] {
-        hit = tracer_.intersect(o_, d_, from_, detail(regions_), beyond_);
+    const auto distance = [&] {
+        hit = look();
         return hit.place.kind == HitKind::none ? infinite : hit.t;
     };
     // Outside of media what is met first mostly ends the ray before it comes to one.
     const bool outside = regions_ == 0;
-    double next = outside ? look() : infinite;
+    double next = outside ? distance() : infinite;
     const bool crosses = media_->next(o_, d_, passed_, next, crossed_ ? &crossing_ : nullptr, crossing);
     if (crosses || next == infinite) {
         if (!crosses && regions_ != 0) ++result_.leaks; // lost through the surface of a medium
         regions_ = RegionTracer::before(regions_, crosses ? &crossing : nullptr);
     }
-    if (!outside || regions_ != 0) next = look();
+    if (!outside || regions_ != 0) next = distance();
     if (regions_ != 0) {
         if (const MediumEvent event = medium_event(passed_, std::min(crossing.t, next)); event.scattered) return handle_medium(event, met);
     }

@@ -2,6 +2,8 @@
 
 #include "render/materials/bsdf.h"
 
+#include <utility>
+
 namespace scree {
 
 PathResult Path::run(V3d o, V3d d, std::vector<PathVertex>* trail)
@@ -22,7 +24,7 @@ PathResult Path::run(V3d o, V3d d, std::vector<PathVertex>* trail)
         if (media_ && !inside) {
             alive = step_through_media(hit);
         } else {
-            hit = inside ? tracer_.intersect_inside(grain_, o_, d_, from_) : tracer_.intersect(o_, d_, from_, detail(), beyond_);
+            hit = inside ? tracer_.intersect_inside(grain_, o_, d_, from_) : look();
             ++result_.segments;
             alive = handle(hit);
         }
@@ -46,19 +48,23 @@ Hit Path::as_proxy(const Hit& hit) const
     return proxy;
 }
 
-bool Path::handle(Hit hit)
+Hit Path::look()
 {
+    const Hit hit = tracer_.intersect(o_, d_, from_, detail(regions_), beyond_);
+    unresolved_ = depth_ == 0 && hit.place.kind == HitKind::grain && explicit_left_ > 0 && !is_resolved(hit);
+    return unresolved_ ? as_proxy(hit) : hit;
+}
+
+bool Path::handle(const Hit& hit)
+{
+    // Seen as it is it has been met, and so it is as a proxy: that of a ray that does not miss it.
+    const bool unresolved = std::exchange(unresolved_, false);
+    if (unresolved) explicit_left_ = 0;
     if (hit.place.kind == HitKind::none) return handle_miss();
-    bool is_proxy = hit.place.kind == HitKind::grain && hit.place.triangle == no_triangle && !is_inside() && detail() == GrainDetail::proxy;
-    if (is_proxy && misses_proxy(hit)) {
+    const bool is_proxy = hit.place.kind == HitKind::grain && hit.place.triangle == no_triangle && !is_inside() && detail() == GrainDetail::proxy;
+    if (is_proxy && !unresolved && misses_proxy(hit)) {
         beyond_ = passed_ = hit.t; // on along the same ray
         return true;
-    }
-    if (depth_ == 0 && !is_inside() && hit.place.kind == HitKind::grain && explicit_left_ > 0 && !is_resolved(hit)) {
-        // Seen as it is it has been met, and so it is as a proxy: that of a ray that does not miss it.
-        explicit_left_ = 0;
-        is_proxy = true;
-        hit = as_proxy(hit);
     }
     if (media_ && is_inside() && hit.place.kind != HitKind::none) regions_ = media_->after(regions_, o_, hit.point);
     attenuate(is_inside() ? &material_of(grain_) : surrounding_, hit.t);

@@ -92,8 +92,10 @@ private:
         clear_ = -1;
     }
 
+    /// What the ray meets from outside of grains; as a proxy where it is a grain that the camera cannot resolve.
+    Hit look();
     // Each handles one vertex; false when the path ends there.
-    bool handle(Hit hit);
+    bool handle(const Hit& hit);
     bool handle_miss();
     bool handle_interface(const Hit& hit);
     bool handle_proxy(const Hit& hit);
@@ -141,6 +143,7 @@ private:
     SpectralState spectral_;
     bool is_spectral_ = false; // some medium's sigma_t depends on the channel
     double beyond_ = 0;        // along the ray: where the last of the proxies was met that it missed
+    bool unresolved_ = false;  // what look() found is a proxy, met for certain
     uint32_t depth_ = 0;
     uint64_t steps_ = 0;
     PathResult result_;

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double largest_radius = 1024; ///< mean free paths
 
-constexpr double tolerance = 0.1;       ///< within which a medium of grids counts as the same in a shell
+constexpr double tolerance = 0.05;      ///< within which a medium of grids counts as the same in a shell: a board of fields 49 mean free paths wide then is right to 0.2 %
+constexpr double grain_tolerance = 0.1; ///< likewise where grains are, of which parts of a shell differ by chance
 constexpr double thin = 0.5;            ///< mean free paths over which what varies averages out
 constexpr double thin_grains = 16;      ///< likewise where grains are: cubes that hold hundreds of them differ by chance, which the medium is measured with
 constexpr double g_step = 1.3;          ///< of 1 - g, where it varies: the same for all scenes, so that they share tables
@@ -101,7 +102,7 @@ void add_shells(StfForm form, double least, StfCache& cache, World& world, std::
             albedo = max_component(region.homogeneous->albedo());
             g_low = g_high = region.homogeneous->phase().mean_cosine();
         } else {
-            pyramid = std::make_unique<MediumPyramid>(*region.grid, box, tolerance, region.instead_of_grains ? thin_grains : thin, progress);
+            pyramid = std::make_unique<MediumPyramid>(*region.grid, box, region.instead_of_grains ? grain_tolerance : tolerance, region.instead_of_grains ? thin_grains : thin, progress);
             const MediumPyramid::Extremes& extremes = pyramid->extremes();
             sigma_t = extremes.sigma_t_high;
             albedo = extremes.albedo_high;

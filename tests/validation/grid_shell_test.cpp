@@ -98,7 +98,7 @@ TEST(GridShells, FollowDensityAndAlbedoAndAsymmetry)
         const float part = 0.5f * (1 + static_cast<float>(x + y) / (2 * n));
         return Voxel{40 + 20 * part, 0.999f - 0.01f * part, 0.3f + 0.3f * part};
     };
-    // Shells are within 10 % of the medium at their centres.
+    // Shells are within 5 % of the medium at their centres.
     EXPECT_GT(expect_equal(fill, bright_top(), false, 0.01, "a density that grows"), 3000u); // more than three a path
 }
 
