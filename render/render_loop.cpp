@@ -21,21 +21,6 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 bool finite(const C3f& c) { return std::isfinite(c.x + c.y + c.z); }
 
-void add(RenderStatistics& total, const RenderStatistics& part)
-{
-    total.paths += part.paths;
-    total.segments += part.segments;
-    total.shadow_rays += part.shadow_rays;
-    total.events += part.events;
-    total.shells += part.shells;
-    total.non_finite += part.non_finite;
-    total.leaks += part.leaks;
-    total.cut += part.cut;
-    total.stopped += part.stopped;
-    total.longest = std::max(total.longest, part.longest);
-    if (!total.first_non_finite) total.first_non_finite = part.first_non_finite;
-}
-
 void count(const PathResult& path, RenderStatistics& part)
 {
     ++part.paths;
@@ -144,7 +129,7 @@ private:
             if (stop() || !run_tile(tiles[i], target, stop, part)) complete = false;
             const int count = ++finished;
             const std::lock_guard lock(mutex_);
-            add(total_, part);
+            total_.add(part);
             const double by_samples = fraction_done(static_cast<double>(count) / static_cast<double>(tiles.size()));
             const double by_time = options_.timeout > 0 ? seconds_since(start_) / options_.timeout : 0;
             progress_.update("rendering", std::min(1.0, std::max(by_samples, by_time)));
@@ -198,6 +183,22 @@ private:
 };
 
 } // namespace
+
+void RenderStatistics::add(const RenderStatistics& part)
+{
+    paths += part.paths;
+    segments += part.segments;
+    shadow_rays += part.shadow_rays;
+    events += part.events;
+    shells += part.shells;
+    non_finite += part.non_finite;
+    leaks += part.leaks;
+    cut += part.cut;
+    stopped += part.stopped;
+    longest = std::max(longest, part.longest);
+    seconds += part.seconds;
+    if (!first_non_finite) first_non_finite = part.first_non_finite;
+}
 
 PathResult render_sample(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter, int x, int y,
                          uint32_t sample, const RenderOptions& options, std::vector<PathVertex>* trail)

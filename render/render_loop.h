@@ -39,6 +39,9 @@ struct RenderStatistics {
     bool cancelled = false;   ///< stopped by the user: pixels may differ in their number of samples
     bool timed_out = false;
     std::optional<SamplePlace> first_non_finite;
+
+    /// Counts what another call or part of one did as well; what is said of a picture (spp, error, how it ended) stays.
+    void add(const RenderStatistics& part);
     std::optional<ErrorClaim> error; ///< of the film, where one was asked for
     bool error_reached = false;      ///< every tile has the samples it was found to need
 };

@@ -30,20 +30,6 @@ SetupTime split(const std::vector<PartReport>& parts, double all)
     return time;
 }
 
-void add(RenderStatistics& total, const RenderStatistics& part)
-{
-    total.paths += part.paths;
-    total.segments += part.segments;
-    total.shadow_rays += part.shadow_rays;
-    total.events += part.events;
-    total.shells += part.shells;
-    total.non_finite += part.non_finite;
-    total.leaks += part.leaks;
-    total.cut += part.cut;
-    total.longest = std::max(total.longest, part.longest);
-    total.seconds += part.seconds;
-}
-
 } // namespace
 
 MethodRun::MethodRun(const BenchJob& job, const BenchMethod& method, uint64_t first_seed, size_t pictures, const Progress& progress)
@@ -84,7 +70,7 @@ void MethodRun::render_until(size_t picture, double processor_seconds, const Pro
     if (statistics.cancelled) throw Cancelled();
     times_[picture] += meter.time();
     samples_drawn_ += options.spp - done;
-    add(statistics_, statistics);
+    statistics_.add(statistics);
 }
 
 WorkTime MethodRun::total_time() const

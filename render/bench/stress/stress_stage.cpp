@@ -2,7 +2,7 @@
 
 #include "ingest/support/error.h"
 #include "ingest/support/json.h"
-#include "render/scene/world_builder.h"
+#include "render/render_setup.h"
 
 #include <cstdlib>
 
@@ -41,29 +41,15 @@ SceneDescription read_back(const StressScene& scene, const Placing& placing, con
     return description;
 }
 
-Camera placed_camera(const SceneDescription& scene, const RenderSpace& space)
-{
-    CameraDescription c = scene.camera;
-    c.origin = space.point(c.origin);
-    c.target = space.point(c.target);
-    c.width = space.length(c.width);
-    c.aperture = space.length(c.aperture);
-    c.focus = space.length(c.focus);
-    return Camera(c, scene.film.width, scene.film.height);
-}
-
 } // namespace
 
 struct StressStage::Impl {
     ScratchFolder folder;
     WorldBuilder builder;
-    std::shared_ptr<const World> world;
-    Tracer tracer;
-    Camera camera;
+    RenderSetup setup;
 
     Impl(const StressScene& scene, const Placing& placing, const StressView& view, const Progress& progress)
-        : builder(read_back(scene, placing, view, folder.path())), world(builder.build(0, progress)), tracer(builder.device(), *world),
-          camera(placed_camera(builder.scene(), world->space))
+        : builder(read_back(scene, placing, view, folder.path())), setup(builder, builder.build(0, progress), RenderJob{})
     {
     }
 };
@@ -75,25 +61,21 @@ StressStage::StressStage(const StressScene& scene, const Placing& placing, const
 
 StressStage::~StressStage() = default;
 
-const World& StressStage::world() const { return *impl_->world; }
+const World& StressStage::world() const { return impl_->setup.world(); }
 const TransportPlan& StressStage::plan() const { return impl_->builder.plan(); }
 
 StressPicture StressStage::render(const StressView& view, const Progress& progress) const
 {
+    const RenderSetup& setup = impl_->setup;
     const SceneDescription& scene = impl_->builder.scene();
-    const TransportPlan& plan = impl_->builder.plan();
-    RenderOptions options;
+    RenderOptions options = setup.options();
     options.spp = view.spp;
     options.seed = view.seed;
     options.timeout = view.timeout;
     options.path.direct_light = view.direct_light;
-    options.path.max_depth = scene.integrator.max_depth;
-    if (plan.has_proxies()) options.path.explicit_grains = plan.explicit_grains;
-    const PixelSize pixel = pixel_size(scene.camera, scene.film);
-    options.path.resolved = {plan.least_pixels * impl_->world->space.length(pixel.width), plan.least_pixels * pixel.slope};
     const int w = scene.film.width, h = scene.film.height;
     StressPicture picture{Film(w, h, 0, 0, w, h), {}};
-    picture.statistics = scree::render(*impl_->world, impl_->tracer, impl_->camera, scene.film.filter, picture.film, options, progress);
+    picture.statistics = scree::render(setup.world(), setup.tracer(), setup.camera(), setup.filter(), picture.film, options, progress);
     if (progress.cancelled()) throw Cancelled();
     return picture;
 }
