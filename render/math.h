@@ -12,18 +12,26 @@
 
 namespace scree {
 
-using Imath::C3f;
 using Imath::V2d;
 using Imath::V3d;
 using Imath::V3f;
 
+#ifdef SCREE_DOUBLE
+using Real = double;
+#else
+using Real = float;
+#endif
+
+/// Light, and the weights that multiply it. Single precision, but in a build that checks it against double (SCREE_DOUBLE).
+using Color = Imath::Color3<Real>;
+
 inline constexpr double pi = std::numbers::pi;
 
-inline float max_component(const C3f& c) { return std::max({c.x, c.y, c.z}); }
-inline double luminance(const C3f& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; } // Rec. 709
-inline bool is_black(const C3f& c) { return c.x == 0 && c.y == 0 && c.z == 0; }
+inline float max_component(const Color& c) { return std::max({c.x, c.y, c.z}); }
+inline double luminance(const Color& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; } // Rec. 709
+inline bool is_black(const Color& c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 
-inline C3f exp(const C3f& c) { return {std::exp(c.x), std::exp(c.y), std::exp(c.z)}; }
+inline Color exp(const Color& c) { return {std::exp(c.x), std::exp(c.y), std::exp(c.z)}; }
 
 /// sqrt of what rounding may have made slightly negative.
 inline double safe_sqrt(double x) { return std::sqrt(std::max(0.0, x)); }

@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-bool finite(const C3f& c) { return std::isfinite(c.x + c.y + c.z); }
+bool finite(const Color& c) { return std::isfinite(c.x + c.y + c.z); }
 
 void count(const PathResult& path, RenderStatistics& part)
 {

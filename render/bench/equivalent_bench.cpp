@@ -19,7 +19,7 @@ int main(int argc, char** argv)
     const double error = argc > 2 ? std::atof(argv[2]) : 0.03;
     const EmbreeDevice device;
     Material absorbing = dielectric(1.5);
-    absorbing.absorption = C3f(0.05f);
+    absorbing.absorption = Color(0.05f);
     const LibraryGrain& sugar = *find_library_grain("sugar");
     Material sugar_material = sugar.material;
     sugar_material.absorption *= static_cast<float>(sugar.typical_radius);

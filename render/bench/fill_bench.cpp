@@ -33,7 +33,7 @@ Material clay()
 {
     Material material;
     material.kind = MaterialKind::lambert;
-    material.reflectance = C3f(0.5f);
+    material.reflectance = Color(0.5f);
     return material;
 }
 
@@ -42,7 +42,7 @@ void add_type_and_sky(World& world)
     world.types.push_back({"clay", clay(), nullptr});
     Light sky;
     sky.kind = LightKind::constant;
-    sky.radiance = C3f(1);
+    sky.radiance = Color(1);
     world.lights = LightSet({sky}, 1.0);
 }
 

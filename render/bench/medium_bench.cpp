@@ -133,14 +133,14 @@ void run_sphere(bool quick)
     for (const auto& [g, albedo] : {std::pair{0.0, 1.0f}, {0.7, 1.0f}, {0.7, 0.99f}}) {
         TestScene constant, sunny;
         for (TestScene* scene : {&constant, &sunny}) {
-            scene->add_medium(icosphere(5), V3d(50), C3f(albedo), g);
+            scene->add_medium(icosphere(5), V3d(50), Color(albedo), g);
             scene->add_constant_light(0.3f);
         }
         Light sun;
         sun.kind = LightKind::distant;
         sun.direction = V3d(0.5, 0.3, 0.8).normalized();
         sun.one_minus_cos = 1e-5;
-        sun.radiance = C3f(4e4f);
+        sun.radiance = Color(4e4f);
         sunny.add_light(sun);
         constant.build();
         sunny.build();
@@ -163,7 +163,7 @@ void run(bool quick)
         MediumGrids grids;
         grids.density = cloud;
         GridMediumOptions options;
-        options.scale = C3f(static_cast<float>(sigma));
+        options.scale = Color(static_cast<float>(sigma));
         const double start = busy_seconds();
         const GridMedium medium = make_grid_medium(grids, options, {}, {});
         const double setup = (busy_seconds() - start);

@@ -42,7 +42,7 @@ ExrPlanes planes_of(const MethodRun& method)
         add_color(file, "variance.", halves.variance[p]);
         for (size_t h = 0; h < 2; ++h) {
             const Pixel& pixel = method.films()[h].pixels()[p];
-            const C3f variance = pixel.variance();
+            const Color variance = pixel.variance();
             add_color(file, half_names[h], h == 0 ? halves.a[p] : halves.b[p]);
             add_color(file, std::string(half_names[h]) + "variance.", V3d(variance.x, variance.y, variance.z));
             file.planes[std::string(half_names[h]) + "samples"].push_back(static_cast<float>(pixel.samples));

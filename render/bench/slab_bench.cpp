@@ -35,7 +35,7 @@ MediumRegion region(const V3d& lo, const V3d& hi, const ContinuousEquivalent& me
     const TriangleMesh mesh = box_mesh(lo, hi);
     MediumRegion region{"slab", {}, mesh.triangles, nullptr, nullptr, nullptr, true};
     for (const V3d& p : mesh.positions) region.positions.emplace_back(p);
-    region.homogeneous = std::make_shared<HomogeneousMedium>(V3d(medium.sigma_t), C3f(V3f(medium.albedo)), medium.g);
+    region.homogeneous = std::make_shared<HomogeneousMedium>(V3d(medium.sigma_t), Color(V3f(medium.albedo)), medium.g);
     return region;
 }
 
@@ -123,7 +123,7 @@ int main(int argc, char** argv)
 
     const EmbreeDevice device;
     Material tinted = dielectric(1.5);
-    tinted.absorption = C3f(0.05f);
+    tinted.absorption = Color(0.05f);
     const LibraryGrain& sugar = *find_library_grain("sugar");
     Material sugar_material = sugar.material;
     sugar_material.absorption *= static_cast<float>(sugar.typical_radius);

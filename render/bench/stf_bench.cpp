@@ -54,13 +54,13 @@ public:
         for (const V3d& p : mesh.positions) box.extendBy(p);
         MediumRegion region{"statue", {}, mesh.triangles, nullptr, nullptr, nullptr};
         for (const V3d& p : mesh.positions) region.positions.emplace_back((p - box.center()) / box.size().z);
-        region.homogeneous = std::make_shared<HomogeneousMedium>(V3d(1), C3f(1), 0.0);
+        region.homogeneous = std::make_shared<HomogeneousMedium>(V3d(1), Color(1), 0.0);
         world.regions.push_back(std::move(region));
         Light sky, sun;
         sun.kind = LightKind::distant;
         sun.direction = V3d(-0.5, -0.7, 0.6).normalized();
         sun.one_minus_cos = 1e-5;
-        sun.radiance = C3f(5e4f); // the irradiance of the sky
+        sun.radiance = Color(5e4f); // the irradiance of the sky
         world.lights = LightSet({sky, sun}, 0.7);
         Stopwatch watch;
         world.clearance = make_clearance(world, Progress());
@@ -260,7 +260,7 @@ int main(int argc, char** argv)
         for (const std::string& length : words(argument(2, "10,30,100,300,1000"))) {
             for (const std::string& albedo : words(argument(3, "0.99,0.999,1"))) {
                 fmt::print("\n{} mean free paths, albedo {}\n", length, albedo);
-                scene.world.regions[0].homogeneous = std::make_shared<HomogeneousMedium>(V3d(std::stod(length)), C3f(std::stof(albedo)), phase);
+                scene.world.regions[0].homogeneous = std::make_shared<HomogeneousMedium>(V3d(std::stod(length)), Color(std::stof(albedo)), phase);
                 run_row(scene, forms, cache, seconds, reference_seconds);
             }
         }

@@ -35,7 +35,7 @@ public:
         plane.reserve(film_.pixels().size());
         for (const Pixel& pixel : film_.pixels()) plane.push_back(value(pixel));
     }
-    void add_rgb(const std::string& prefix, const std::function<C3f(const Pixel&)>& value)
+    void add_rgb(const std::string& prefix, const std::function<Color(const Pixel&)>& value)
     {
         const char* names[] = {"R", "G", "B"};
         for (int c = 0; c < 3; ++c) add(prefix + names[c], [&](const Pixel& pixel) { return value(pixel)[c]; });

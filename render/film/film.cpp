@@ -2,7 +2,7 @@
 
 namespace scree {
 
-void Pixel::add(const C3f& radiance, const FirstHit& first)
+void Pixel::add(const Color& radiance, const FirstHit& first)
 {
     if (samples == 0) {
         type = first.type;
@@ -19,16 +19,16 @@ void Pixel::add(const C3f& radiance, const FirstHit& first)
     depth += first.depth;
 }
 
-C3f Pixel::mean() const
+Color Pixel::mean() const
 {
-    if (samples == 0) return C3f(0);
+    if (samples == 0) return Color(0);
     const Imath::V3d m = sum / samples;
     return {static_cast<float>(m.x), static_cast<float>(m.y), static_cast<float>(m.z)};
 }
 
-C3f Pixel::variance() const
+Color Pixel::variance() const
 {
-    if (samples < 2) return C3f(0);
+    if (samples < 2) return Color(0);
     const double n = samples;
     const Imath::V3d m = sum / n, v = (sum_of_squares / n - m * m) / (n - 1);
     return {static_cast<float>(std::max(0.0, v.x)), static_cast<float>(std::max(0.0, v.y)), static_cast<float>(std::max(0.0, v.z))};

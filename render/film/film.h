@@ -14,7 +14,7 @@ inline constexpr uint32_t no_grain = std::numeric_limits<uint32_t>::max(); ///< 
 /// What a path met first, for the auxiliary pictures.
 struct FirstHit {
     bool hit = false;
-    C3f albedo{0};
+    Color albedo{0};
     V3f normal{0};
     double depth = 0;          ///< along the view, render coordinates
     uint32_t type = no_grain;
@@ -27,15 +27,15 @@ struct Pixel {
     uint32_t samples = 0; ///< of them, those that were finite: the others are dropped
     uint32_t hits = 0;    ///< of them, those that met something
     Imath::V3d sum{0}, sum_of_squares{0};
-    C3f albedo{0};
+    Color albedo{0};
     V3f normal{0};
     double depth = 0;
     uint32_t type = no_grain, id = no_grain; ///< of the first sample
 
-    void add(const C3f& radiance, const FirstHit& first);
-    C3f mean() const;
+    void add(const Color& radiance, const FirstHit& first);
+    Color mean() const;
     /// Variance of the mean, per channel; 0 below two samples.
-    C3f variance() const;
+    Color variance() const;
 };
 
 /// Rows of pixels of the part of a picture that is rendered.

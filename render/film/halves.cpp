@@ -19,7 +19,7 @@ V3d HalfSums::variance() const
     return {std::max(0.0, v.x), std::max(0.0, v.y), std::max(0.0, v.z)};
 }
 
-void PixelHalves::add(uint32_t number, const C3f& radiance, const HalfCounts& counts)
+void PixelHalves::add(uint32_t number, const Color& radiance, const HalfCounts& counts)
 {
     const size_t h = number & 1;
     HalfSums& sums = number / 2 < counts.counts[h] ? halves_[h] : late_;

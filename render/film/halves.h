@@ -36,7 +36,7 @@ struct HalfSums {
 class PixelHalves {
 public:
     /// number: of the sample, from 0; those past what counts only help to judge the other half.
-    void add(uint32_t number, const C3f& radiance, const HalfCounts& counts);
+    void add(uint32_t number, const Color& radiance, const HalfCounts& counts);
 
     /// What counts of a half.
     const HalfSums& half(int h) const { return halves_[static_cast<size_t>(h)]; }

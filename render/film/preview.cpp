@@ -18,7 +18,7 @@ void write_preview(const std::filesystem::path& path, const Film& film)
     std::vector<float> values;
     values.reserve(3 * film.pixels().size());
     for (const Pixel& pixel : film.pixels()) {
-        const C3f c = pixel.mean();
+        const Color c = pixel.mean();
         for (const float x : {c.x, c.y, c.z}) values.push_back(to_srgb(x));
     }
     write_picture_file(path, film.x1() - film.x0(), film.y1() - film.y0(), values);

@@ -37,15 +37,15 @@ void lay_down(TriangleMesh& mesh)
 std::shared_ptr<const EnvironmentMap> make_sky()
 {
     constexpr size_t width = 64, height = 32;
-    std::vector<C3f> texels;
+    std::vector<Color> texels;
     for (size_t y = 0; y < height; ++y) {
         const double up = std::cos(pi * (static_cast<double>(y) + 0.5) / height);
         for (size_t x = 0; x < width; ++x) {
             const auto haze = static_cast<float>(std::exp(-3 * std::abs(up)));
-            texels.push_back(C3f(0.28f, 0.34f, 0.42f) * (1 - haze) + C3f(0.85f, 0.85f, 0.85f) * haze);
+            texels.push_back(Color(0.28f, 0.34f, 0.42f) * (1 - haze) + Color(0.85f, 0.85f, 0.85f) * haze);
         }
     }
-    return std::make_shared<EnvironmentMap>(std::move(texels), width, height, V3d(0, 0, 1), C3f(1.0f));
+    return std::make_shared<EnvironmentMap>(std::move(texels), width, height, V3d(0, 0, 1), Color(1.0f));
 }
 
 World make_world(const LibraryGrain& grain, const ShapeOptions& shape, const std::string& place, const EmbreeDevice& device)
@@ -70,14 +70,14 @@ World make_world(const LibraryGrain& grain, const ShapeOptions& shape, const std
     constexpr float half = 60; // of the floor: to the horizon, as far as the camera and the grain can tell
     const auto z = static_cast<float>(lowest - 0x1p-12);
     Surface floor{"floor", {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}}, {{0, 1, 2}, {0, 2, 3}}, {}};
-    floor.material.reflectance = C3f(0.12f);
+    floor.material.reflectance = Color(0.12f);
     world.surfaces.push_back(std::move(floor));
 
     LightDescription sky, sun;
     sky.kind = LightDescription::Kind::environment;
     sun.kind = LightDescription::Kind::distant;
     sun.direction = -to_sun;
-    sun.irradiance = C3f(2.2f, 2.1f, 1.95f);
+    sun.irradiance = Color(2.2f, 2.1f, 1.95f);
     sun.angle = 32; // through haze, so that what it sends through the grain converges soon
     world.lights = LightSet({make_light(sky, make_sky(), world.space), make_light(sun, nullptr, world.space)}, 2);
     return world;

@@ -16,7 +16,7 @@ namespace {
 
 std::string kind_name(const Material& material) { return material.transmits() ? "dielectric" : "lambert"; }
 
-std::string rgb_text(const C3f& c, double scale)
+std::string rgb_text(const Color& c, double scale)
 {
     if (c.x == c.y && c.y == c.z) return fmt::format("{:.3g}", scale * c.x);
     return fmt::format("{:.3g} {:.3g} {:.3g}", scale * c.x, scale * c.y, scale * c.z);
@@ -46,7 +46,7 @@ void print_parameters(const LibraryGrain& grain)
 
 void print_json(const std::vector<const LibraryGrain*>& grains)
 {
-    const auto rgb = [](const C3f& c) { return nlohmann::json::array({c.x, c.y, c.z}); };
+    const auto rgb = [](const Color& c) { return nlohmann::json::array({c.x, c.y, c.z}); };
     nlohmann::json list = nlohmann::json::array();
     for (const LibraryGrain* grain : grains) {
         const Material& m = grain->material;

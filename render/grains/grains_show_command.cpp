@@ -39,7 +39,7 @@ void place_portrait(const Film& film, int x0, int y0, Picture& sheet)
 {
     for (int y = 0; y < film.height(); ++y) {
         for (int x = 0; x < film.width(); ++x) {
-            const C3f c = film.at(x, y).mean();
+            const Color c = film.at(x, y).mean();
             sheet.fill_rectangle(x0 + x, y0 + y, 1, 1, {to_screen(c.x), to_screen(c.y), to_screen(c.z)});
         }
     }

@@ -41,9 +41,9 @@ bool next_face(const V3d& o, const V3d& d, bool inside, bool first, Step& step)
 Material lossless(const Material& material)
 {
     Material pure = material;
-    pure.absorption = C3f(0);
-    pure.tint = C3f(1);
-    pure.reflectance = C3f(1);
+    pure.absorption = Color(0);
+    pure.tint = Color(1);
+    pure.reflectance = Color(1);
     return pure;
 }
 

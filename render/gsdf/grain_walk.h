@@ -17,7 +17,7 @@ struct GrainExit {
     V3d point{0}, direction{0}; ///< where on the sphere, and where to; unit
     double length = 0;          ///< of the way inside the grain's material, in radii of the bounding sphere
     uint32_t events = 0;        ///< scatterings at the surface; 0: the grain was missed
-    C3f weight{1};
+    Color weight{1};
     bool lost = false;          ///< given up: nothing was scattered, or it took more than 10^6 events (4096 where nothing is transmitted)
 };
 

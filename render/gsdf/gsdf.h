@@ -59,7 +59,7 @@ public:
         std::vector<float> density;       ///< strata * cells means over cells, per solid angle
         std::vector<uint32_t> first;      ///< strata * cells + 1: where a cell's records begin
         std::vector<GsdfRecord> records;
-        std::vector<C3f> weights;         ///< of the records, for metals; else empty
+        std::vector<Color> weights;         ///< of the records, for metals; else empty
         GsdfQuality quality;
     };
     /// Takes over data of the right sizes, the masses of every stratum summing to 1; every cell of positive mass has a record.
@@ -87,7 +87,7 @@ public:
     std::span<const GsdfRecord> records(uint32_t stratum, uint32_t cell) const;
     const GsdfRecord& record(uint32_t number) const { return data_.records[number]; }
     /// What a record's path keeps of light in a grain of this material and radius (in the material's units).
-    C3f weight(uint32_t number, const Material& material, double radius) const;
+    Color weight(uint32_t number, const Material& material, double radius) const;
 
     /// Probability that an encounter that is uniform in q falls into the stratum, given that it scatters.
     double stratum_mass(uint32_t stratum) const { return stratum_mass_[stratum]; }

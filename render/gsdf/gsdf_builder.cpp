@@ -25,7 +25,7 @@ constexpr uint32_t most_of_a_cell = 256;   // records
 struct Scattered {
     uint32_t stratum, cell;
     GsdfRecord record;
-    C3f weight;
+    Color weight;
 };
 
 /// What is counted; sums of whole numbers, so that the order does not matter.
@@ -248,7 +248,7 @@ private:
                     const Scattered* near = nearest(of_cell, lender_[s], c);
                     const V3d centre = DirectionGrid::centre(c);
                     data.records.push_back(near ? turned(near->record, centre) : straight_back(centre));
-                    if (weighted) data.weights.push_back(near ? near->weight : C3f(1));
+                    if (weighted) data.weights.push_back(near ? near->weight : Color(1));
                 }
                 data.first.push_back(static_cast<uint32_t>(data.records.size()));
             }

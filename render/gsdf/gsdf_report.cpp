@@ -19,7 +19,7 @@ std::string form_name(const std::string& form)
 
 nlohmann::json material_json(const Material& m)
 {
-    const auto rgb = [](const C3f& c) { return nlohmann::json::array({c.x, c.y, c.z}); };
+    const auto rgb = [](const Color& c) { return nlohmann::json::array({c.x, c.y, c.z}); };
     switch (m.kind) {
     case MaterialKind::lambert: return {{"kind", "lambert"}};
     case MaterialKind::dielectric: return {{"kind", "dielectric"}, {"ior", m.ior}, {"roughness", std::sqrt(m.alpha)}};

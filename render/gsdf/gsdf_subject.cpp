@@ -21,7 +21,7 @@ constexpr double largest_index = 1000; // of a metal, with room
                      nearest.empty() ? "" : nearest.substr(2));
 }
 
-C3f rgb(const std::string& text, const C3f& absent, const std::string& option)
+Color rgb(const std::string& text, const Color& absent, const std::string& option)
 {
     if (text.empty()) return absent;
     std::vector<float> numbers;
@@ -31,7 +31,7 @@ C3f rgb(const std::string& text, const C3f& absent, const std::string& option)
         if (!number || !(*number >= 0 && *number <= largest_index)) numbers.resize(3); // one too many, then
         numbers.push_back(static_cast<float>(number.value_or(0)));
     }
-    if (numbers.size() == 1) return C3f(numbers[0]);
+    if (numbers.size() == 1) return Color(numbers[0]);
     if (numbers.size() != 3) throw InputError(option, in_quotes(text), "a number from 0 on, or three as in 0.2,0.9,1.1 for red, green and blue");
     return {numbers[0], numbers[1], numbers[2]};
 }

@@ -64,9 +64,9 @@ MediumEvent Path::medium_event(double t0, double t1)
     return first;
 }
 
-C3f Path::media_transmittance(RegionSet regions, const V3d& o, const V3d& d, double t0, double t1)
+Color Path::media_transmittance(RegionSet regions, const V3d& o, const V3d& d, double t0, double t1)
 {
-    C3f passed(1);
+    Color passed(1);
     for_each_region(regions, [&](uint32_t region) { passed *= world_.regions[region].transmittance(o, d, t0, t1, sampler_); });
     return passed;
 }
@@ -170,7 +170,7 @@ bool Path::handle_medium(const MediumEvent& event, Hit& met)
             const MediumRegion& region = world_.regions[static_cast<size_t>(std::countr_zero(regions_))];
             if (region.homogeneous && region.is_achromatic()) reached = std::exp(-region.homogeneous->sigma_t().x * clear());
         }
-        if (reached >= 1 || sampler_.next() < reached) add_phase_light(o_, d_, event.phase, C3f(static_cast<float>(1 / reached)));
+        if (reached >= 1 || sampler_.next() < reached) add_phase_light(o_, d_, event.phase, Color(static_cast<float>(1 / reached)));
     }
 
     const double u = sampler_.next(), phi = 2 * pi * sampler_.next();
@@ -183,17 +183,17 @@ bool Path::handle_medium(const MediumEvent& event, Hit& met)
     return true;
 }
 
-C3f Path::passing(const V3d& o, const V3d& d, double distance, const Place& from, uint32_t light, RegionSet regions)
+Color Path::passing(const V3d& o, const V3d& d, double distance, const Place& from, uint32_t light, RegionSet regions)
 {
     if (media_) return passing_media(o, d, distance, from, light, regions);
     ++result_.shadow_rays;
-    return C3f(static_cast<float>(tracer_.visibility(o, d, distance, from, light, detail())));
+    return Color(static_cast<float>(tracer_.visibility(o, d, distance, from, light, detail())));
 }
 
-C3f Path::passing_media(V3d o, const V3d& d, double distance, Place from, uint32_t light, RegionSet regions)
+Color Path::passing_media(V3d o, const V3d& d, double distance, Place from, uint32_t light, RegionSet regions)
 {
     constexpr float enough = 0.05f; // below it Russian roulette decides whether to look on
-    C3f passed(1);
+    Color passed(1);
     const auto is_lost = [&] {
         const float most = max_component(passed);
         if (most >= enough) return false;
@@ -210,7 +210,7 @@ C3f Path::passing_media(V3d o, const V3d& d, double distance, Place from, uint32
         const double end = crosses ? crossing.t : distance;
         if (regions != 0) {
             passed *= media_transmittance(regions, o, d, t, end);
-            if (is_lost()) return C3f(0);
+            if (is_lost()) return Color(0);
         }
         const GrainDetail grains = detail(regions);
         if (crosses) regions = RegionTracer::after(regions, crossing);
@@ -218,7 +218,7 @@ C3f Path::passing_media(V3d o, const V3d& d, double distance, Place from, uint32
         if (!crosses || detail(regions) != grains) {
             ++result_.shadow_rays;
             const double visibility = tracer_.visibility(o + looked * d, d, end - looked, looked > 0 ? Place{} : from, light, grains);
-            if (visibility == 0) return C3f(0);
+            if (visibility == 0) return Color(0);
             passed *= static_cast<float>(visibility);
             looked = end;
         }
@@ -229,7 +229,7 @@ C3f Path::passing_media(V3d o, const V3d& d, double distance, Place from, uint32
         if (grains == GrainDetail::none && detail(regions) != GrainDetail::none) { // as in handle_crossing
             o = void_point(o + t * d, d, crossing);
             distance = distance == infinite ? infinite : world_.lights.meet(light, o, d);
-            if (!(distance > 0) || (world_.lights.lights()[light].is_infinite() != (distance == infinite))) return C3f(0);
+            if (!(distance > 0) || (world_.lights.lights()[light].is_infinite() != (distance == infinite))) return Color(0);
             t = looked = 0;
             from = {};
         }

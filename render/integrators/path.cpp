@@ -135,9 +135,9 @@ bool Path::survives()
     return true;
 }
 
-C3f Path::transmittance(const Material& medium, double length)
+Color Path::transmittance(const Material& medium, double length)
 {
-    return is_black(medium.absorption) ? C3f(1) : exp(medium.absorption * static_cast<float>(-length));
+    return is_black(medium.absorption) ? Color(1) : exp(medium.absorption * static_cast<float>(-length));
 }
 
 void Path::note_first(const Hit& hit, const Material& material)
@@ -162,18 +162,18 @@ void Path::add_direct_light(const Hit& hit, const Material& material, const Fram
     // What leads into a grain (or stays in it) is cut off by its own interface.
     const bool leads_inside = hit.place.kind == HitKind::grain ? material.transmits() && wi.z <= 0 : is_inside();
     if (leads_inside) return;
-    const C3f f = eval_bsdf(material, wo, wi, sampler_);
+    const Color f = eval_bsdf(material, wo, wi, sampler_);
     if (is_black(f)) return;
     ++result_.shadow_rays;
-    const C3f passed = passing(hit.point, light.direction, light.distance, hit.place, light.light, regions_);
+    const Color passed = passing(hit.point, light.direction, light.distance, hit.place, light.light, regions_);
     if (!is_black(passed)) add_light_sample(light, light.distance, f, pdf_bsdf(material, wo, wi), passed);
 }
 
-void Path::add_light_sample(const LightSample& light, double distance, const C3f& f, double scatter_pdf, const C3f& passed)
+void Path::add_light_sample(const LightSample& light, double distance, const Color& f, double scatter_pdf, const Color& passed)
 {
     double w = 1;
     if (!light.delta && options_.direct_light == DirectLight::both) w *= mis_weight(light.pdf, scatter_pdf);
-    C3f arriving = light.radiance * passed;
+    Color arriving = light.radiance * passed;
     if (surrounding_ && std::isfinite(distance)) arriving *= transmittance(*surrounding_, distance);
     add(f * arriving * static_cast<float>(w / light.pdf));
 }
@@ -200,7 +200,7 @@ void Path::add_infinite_lights()
     const auto& lights = world_.lights.lights();
     for (uint32_t i = 0; i < lights.size(); ++i) {
         if (!lights[i].is_infinite()) continue;
-        const C3f radiance = world_.lights.infinite_radiance(i, d_);
+        const Color radiance = world_.lights.infinite_radiance(i, d_);
         if (is_black(radiance)) continue;
         add(radiance * static_cast<float>(found_weight(found_pdf(i, std::numeric_limits<double>::infinity()))));
     }

@@ -43,7 +43,7 @@ private:
     /// The same within the regions: there may be a medium in place of the grains.
     GrainDetail detail(RegionSet regions) const { return media_ && (regions & media_->instead_of_grains()) != 0 ? GrainDetail::none : detail(); }
     const Material& material_of(const Place& grain) const { return world_.types[grain.type].material; }
-    static C3f transmittance(const Material& medium, double length);
+    static Color transmittance(const Material& medium, double length);
     void attenuate(const Material* medium, double length)
     {
         if (medium) weight_ *= transmittance(*medium, length);
@@ -59,10 +59,10 @@ private:
     void handle_crossing(const Crossing& crossing);
     /// The first scattering of the media around, between two places on the ray.
     MediumEvent medium_event(double t0, double t1);
-    C3f media_transmittance(RegionSet regions, const V3d& o, const V3d& d, double t0, double t1);
+    Color media_transmittance(RegionSet regions, const V3d& o, const V3d& d, double t0, double t1);
     /// What passes from o to a light `distance` away, of all that stands and lies between.
-    C3f passing(const V3d& o, const V3d& d, double distance, const Place& from, uint32_t light, RegionSet regions);
-    C3f passing_media(V3d o, const V3d& d, double distance, Place from, uint32_t light, RegionSet regions);
+    Color passing(const V3d& o, const V3d& d, double distance, const Place& from, uint32_t light, RegionSet regions);
+    Color passing_media(V3d o, const V3d& d, double distance, Place from, uint32_t light, RegionSet regions);
 
     /// How far there is nothing but media around the ray's start; 0 where that is not worth knowing.
     double clear();
@@ -80,7 +80,7 @@ private:
     /// Light that the first scattering in the shell brings.
     void add_single_light(const FittingShell& shell, double weight);
     /// Light that a phase function at a place scatters, of a way that came along `before`.
-    void add_phase_light(const V3d& place, const V3d& before, const PhaseFunction& phase, const C3f& weight);
+    void add_phase_light(const V3d& place, const V3d& before, const PhaseFunction& phase, const Color& weight);
 
     void start_ray(const V3d& o, const V3d& d, const Place& from)
     {
@@ -104,7 +104,7 @@ private:
     Hit as_proxy(const Hit& hit) const;
     bool handle_medium(const MediumEvent& event, Hit& met);
 
-    void add(const C3f& light) { result_.radiance += weight_ * spectral_.weight() * light; }
+    void add(const Color& light) { result_.radiance += weight_ * spectral_.weight() * light; }
     /// Russian roulette: kills with the weight's largest channel, and only what has lost some.
     bool survives();
     bool is_cut();
@@ -113,7 +113,7 @@ private:
     void add_direct_light(const Hit& hit, const Material& material, const Frame& frame, const V3d& wo);
     void add_proxy_light(const Hit& hit, const Encounter& encounter, uint32_t stratum);
     /// Adds what a light's sample brings over `distance`, scattered by f (per solid angle) and weighed against scatter_pdf.
-    void add_light_sample(const LightSample& light, double distance, const C3f& f, double scatter_pdf, const C3f& passed);
+    void add_light_sample(const LightSample& light, double distance, const Color& f, double scatter_pdf, const Color& passed);
     /// Weight of light that scattering found, against the chance that sampling the light had of it.
     double found_weight(double light_pdf) const;
     double found_pdf(uint32_t light, double distance) const;
@@ -132,7 +132,7 @@ private:
     uint64_t last_grain_ = std::numeric_limits<uint64_t>::max(); // the last met as it is
     uint32_t explicit_left_;   // grains that may still be met as they are
     const Material* surrounding_ = nullptr; // of the dielectric surface the path is inside of, outside grains
-    C3f weight_{1};
+    Color weight_{1};
     Scattering last_;
     RegionSet regions_ = 0;    // that the path is in
     Crossing crossing_;        // the last on this ray, if crossed_

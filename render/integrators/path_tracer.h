@@ -27,11 +27,11 @@ struct PathVertex {
     V3d o, d;          ///< the ray that was traced, render coordinates
     Hit hit;
     bool inside = false;
-    C3f weight, radiance; ///< of the path up to here, after the vertex was handled
+    Color weight, radiance; ///< of the path up to here, after the vertex was handled
 };
 
 struct PathResult {
-    C3f radiance{0};
+    Color radiance{0};
     V3d last_direction{0}; ///< in which it left, or met its light
     FirstHit first;
     uint32_t segments = 0; ///< rays traced, shadow rays not counted

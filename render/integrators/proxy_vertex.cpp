@@ -70,7 +70,7 @@ void Path::add_proxy_light(const Hit& hit, const Encounter& encounter, uint32_t 
     if (!(density > 0)) return;
     const uint32_t cell = DirectionGrid::cell(DirectionGrid::angles(w));
     const uint32_t number = gsdf.pick(stratum, cell, sampler_.next());
-    C3f kept = gsdf.weight(number, type.material, sphere.radius);
+    Color kept = gsdf.weight(number, type.material, sphere.radius);
     if (is_black(kept)) return;
     const V3d exit = sphere.centre + sphere.radius * encounter.to_world(gsdf.record(number).point.unpack());
     double distance = light.distance;
@@ -81,7 +81,7 @@ void Path::add_proxy_light(const Hit& hit, const Encounter& encounter, uint32_t 
     if (surrounding_) kept *= transmittance(*surrounding_, length_outside(hit.point, exit, gsdf.record(number), sphere.radius));
     ++result_.shadow_rays;
     const RegionSet regions = media_ ? media_->after(regions_, hit.point, exit) : 0;
-    const C3f passed = passing(exit, light.direction, distance, hit.place, light.light, regions);
+    const Color passed = passing(exit, light.direction, distance, hit.place, light.light, regions);
     if (is_black(passed) || tracer_.surface_between(hit.point, exit).place.kind == HitKind::surface) return;
     add_light_sample(light, distance, kept * static_cast<float>(density), gsdf.cell_density(stratum, cell), passed);
 }

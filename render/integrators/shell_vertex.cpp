@@ -76,7 +76,7 @@ bool Path::diffuse_through(const FittingShell& shell, Hit& met)
         const double flux = kappa * shell.radius * std::cosh(kappa * beyond) + std::sinh(kappa * beyond);
         return x > 1e-8 ? flux / std::sinh(x) : 1.0;
     };
-    weight_ *= C3f(static_cast<float>(left(shell.albedo.x)), static_cast<float>(left(shell.albedo.y)), static_cast<float>(left(shell.albedo.z)));
+    weight_ *= Color(static_cast<float>(left(shell.albedo.x)), static_cast<float>(left(shell.albedo.y)), static_cast<float>(left(shell.albedo.z)));
     if (!survives()) return false;
     met.point = o_ + shell.length * normal;
     const bool lit = world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only;
@@ -90,8 +90,8 @@ bool Path::leave_by_cosine(const V3d& place, const V3d& normal, float light_weig
         const LightSample light = world_.lights.sample(place, u0, u1, u2);
         const double cosine = light.valid ? light.direction.dot(normal) : 0;
         if (cosine > 0) {
-            const C3f passed = passing(place, light.direction, light.distance, {}, light.light, regions_);
-            if (!is_black(passed)) add_light_sample(light, light.distance, C3f(light_weight * static_cast<float>(cosine / pi)), cosine / pi, passed);
+            const Color passed = passing(place, light.direction, light.distance, {}, light.light, regions_);
+            if (!is_black(passed)) add_light_sample(light, light.distance, Color(light_weight * static_cast<float>(cosine / pi)), cosine / pi, passed);
         }
     }
     const double u = sampler_.next(), v = sampler_.next();
@@ -120,13 +120,13 @@ void Path::add_single_light(const FittingShell& shell, double weight)
     add_phase_light(o_ + first_flight(shell) * d_, d_, shell.phase, shell.albedo * static_cast<float>(weight));
 }
 
-void Path::add_phase_light(const V3d& place, const V3d& before, const PhaseFunction& phase, const C3f& weight)
+void Path::add_phase_light(const V3d& place, const V3d& before, const PhaseFunction& phase, const Color& weight)
 {
     const double u0 = sampler_.next(), u1 = sampler_.next(), u2 = sampler_.next();
     const LightSample light = world_.lights.sample(place, u0, u1, u2);
     if (!light.valid) return;
     const double density = phase.pdf(before.dot(light.direction));
-    const C3f passed = passing(place, light.direction, light.distance, {}, light.light, regions_);
+    const Color passed = passing(place, light.direction, light.distance, {}, light.light, regions_);
     if (!is_black(passed)) add_light_sample(light, light.distance, weight * static_cast<float>(density), density, passed);
 }
 

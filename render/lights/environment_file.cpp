@@ -9,7 +9,7 @@
 
 namespace scree {
 
-EnvironmentMap read_environment(const std::filesystem::path& file, const V3d& up, const C3f& scale)
+EnvironmentMap read_environment(const std::filesystem::path& file, const V3d& up, const Color& scale)
 {
     const PictureFile picture = read_picture_file(file);
     const size_t width = picture.width, height = picture.height, channels = picture.channels;
@@ -22,10 +22,10 @@ EnvironmentMap read_environment(const std::filesystem::path& file, const V3d& up
         if (!picture.eight_bit) return x;
         return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
     };
-    std::vector<C3f> texels(width * height);
+    std::vector<Color> texels(width * height);
     for (size_t i = 0; i < texels.size(); ++i) {
         const float* v = &picture.values[i * channels];
-        texels[i] = channels >= 3 ? C3f(decode(v[0]), decode(v[1]), decode(v[2])) : C3f(decode(v[0]));
+        texels[i] = channels >= 3 ? Color(decode(v[0]), decode(v[1]), decode(v[2])) : Color(decode(v[0]));
         for (const float x : {texels[i].x, texels[i].y, texels[i].z}) {
             if (!std::isfinite(x) || x < 0) {
                 throw InputError(fmt::format("{}: row {}, column {}", file.string(), i / width, i % width), fmt::format("{}", x),

@@ -21,11 +21,11 @@ Imath::M33d rotation_to(const V3d& up)
 
 } // namespace
 
-EnvironmentMap::EnvironmentMap(std::vector<C3f> texels, size_t width, size_t height, const V3d& up, const C3f& scale)
+EnvironmentMap::EnvironmentMap(std::vector<Color> texels, size_t width, size_t height, const V3d& up, const Color& scale)
     : texels_(std::move(texels)), width_(width), height_(height), to_world_(rotation_to(up.normalized()))
 {
     to_map_ = to_world_.transposed();
-    for (C3f& texel : texels_) texel *= scale;
+    for (Color& texel : texels_) texel *= scale;
     // A cell sees its neighbours through the interpolation: the density is the mean of the 3x3 block, so that it is
     // positive wherever the radiance is, times the sine of the latitude for the area a row covers.
     std::vector<float> weight(width * height);
@@ -50,7 +50,7 @@ V2d EnvironmentMap::to_square(const V3d& direction) const
     return {u, std::acos(std::clamp(d.z, -1.0, 1.0)) / pi};
 }
 
-C3f EnvironmentMap::radiance(const V3d& direction) const
+Color EnvironmentMap::radiance(const V3d& direction) const
 {
     const V2d p = to_square(direction);
     const double x = p.x * static_cast<double>(width_) - 0.5, y = p.y * static_cast<double>(height_) - 0.5;
@@ -82,13 +82,13 @@ double EnvironmentMap::pdf(const V3d& direction) const
     return sine > 0 ? distribution_.pdf(p) / (2 * pi * pi * sine) : 0;
 }
 
-C3f EnvironmentMap::mean() const
+Color EnvironmentMap::mean() const
 {
-    Imath::C3f sum(0);
+    Color sum(0);
     double total = 0;
     for (size_t y = 0; y < height_; ++y) {
         const double sine = std::sin(pi * (static_cast<double>(y) + 0.5) / static_cast<double>(height_));
-        C3f row(0);
+        Color row(0);
         for (size_t x = 0; x < width_; ++x) row += texel(x, y);
         sum += row * static_cast<float>(sine);
         total += sine * static_cast<double>(width_);

@@ -14,22 +14,22 @@ namespace scree {
 class EnvironmentMap {
 public:
     /// texels: height rows of width radiances, top row first; all >= 0 and finite.
-    EnvironmentMap(std::vector<C3f> texels, size_t width, size_t height, const V3d& up, const C3f& scale);
+    EnvironmentMap(std::vector<Color> texels, size_t width, size_t height, const V3d& up, const Color& scale);
 
-    C3f radiance(const V3d& direction) const;
+    Color radiance(const V3d& direction) const;
     /// Unit direction with density `pdf(direction)` per solid angle.
     V3d sample(double u1, double u2) const;
     double pdf(const V3d& direction) const;
     /// Radiances, scaled, top row first.
-    const std::vector<C3f>& texels() const { return texels_; }
+    const std::vector<Color>& texels() const { return texels_; }
     /// Mean radiance over the sphere.
-    C3f mean() const;
+    Color mean() const;
 
 private:
     V2d to_square(const V3d& direction) const;
-    const C3f& texel(size_t x, size_t y) const { return texels_[y * width_ + x]; }
+    const Color& texel(size_t x, size_t y) const { return texels_[y * width_ + x]; }
 
-    std::vector<C3f> texels_;
+    std::vector<Color> texels_;
     size_t width_, height_;
     Imath::M33d to_map_, to_world_;
     Distribution2D distribution_;

@@ -143,7 +143,7 @@ double LightSet::meet(uint32_t index, const V3d& point, const V3d& direction) co
     return u >= 0 && u <= 1 && v >= 0 && v <= 1 ? t : never;
 }
 
-C3f LightSet::infinite_radiance(uint32_t index, const V3d& direction) const
+Color LightSet::infinite_radiance(uint32_t index, const V3d& direction) const
 {
     const Light& light = lights_[index];
     switch (light.kind) {
@@ -151,8 +151,8 @@ C3f LightSet::infinite_radiance(uint32_t index, const V3d& direction) const
     case LightKind::environment: return light.map->radiance(direction);
     case LightKind::distant: // |a - b|^2 = 2 (1 - cos), without the cancellation of 1 - a.b
         return light.one_minus_cos > 0 && (direction - light.direction).length2() <= 2 * light.one_minus_cos
-                   ? light.radiance : C3f(0);
-    default: return C3f(0);
+                   ? light.radiance : Color(0);
+    default: return Color(0);
     }
 }
 

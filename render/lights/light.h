@@ -13,7 +13,7 @@ enum class LightKind : uint8_t { constant, environment, distant, rectangle, sphe
 /// A source of light, in render coordinates. Rectangles shine from both faces, spheres outwards; neither reflects.
 struct Light {
     LightKind kind = LightKind::constant;
-    C3f radiance{1};                       ///< emitted; for distant the radiance of the disc (irradiance when it is a point)
+    Color radiance{1};                       ///< emitted; for distant the radiance of the disc (irradiance when it is a point)
     V3d direction{0, 0, 1};                ///< distant: unit, from the scene towards the light
     double one_minus_cos = 0;              ///< distant: of half its angular diameter; 0 is a point
     V3d corner{0}, edge1{0}, edge2{0};     ///< rectangle
@@ -31,7 +31,7 @@ struct Light {
 struct LightSample {
     V3d direction{0};      ///< unit, from the point towards the light
     double distance = 0;   ///< to the light; infinity where it is infinite
-    C3f radiance{0};       ///< arriving, were nothing in the way
+    Color radiance{0};       ///< arriving, were nothing in the way
     double pdf = 0;        ///< per solid angle, including the choice of the light; for a point light its choice only
     bool delta = false;
     uint32_t light = 0;
@@ -55,9 +55,9 @@ public:
     /// Where the ray meets a finite light, were nothing in the way; infinity when it does not.
     double meet(uint32_t index, const V3d& point, const V3d& direction) const;
     /// Radiance of a finite light seen along `direction`.
-    C3f emitted(uint32_t index) const { return lights_[index].radiance; }
+    Color emitted(uint32_t index) const { return lights_[index].radiance; }
     /// Radiance of one infinite light from far along `direction`.
-    C3f infinite_radiance(uint32_t index, const V3d& direction) const;
+    Color infinite_radiance(uint32_t index, const V3d& direction) const;
 
 private:
     std::vector<Light> lights_;

@@ -49,13 +49,13 @@ BsdfSample sample_bsdf(const Material& material, const V3d& wo, Sampler& sampler
     return {flip_if(walk.wi, below), material.tint * walk.weight, proxy_pdf_walk(material, eta, up, walk.wi), true};
 }
 
-C3f eval_bsdf(const Material& material, const V3d& wo, const V3d& wi, Sampler& sampler)
+Color eval_bsdf(const Material& material, const V3d& wo, const V3d& wi, Sampler& sampler)
 {
     const bool same_side = wo.z * wi.z > 0;
     if (material.kind == MaterialKind::lambert) {
-        return same_side ? material.reflectance * static_cast<float>(std::abs(wi.z) / pi) : C3f(0);
+        return same_side ? material.reflectance * static_cast<float>(std::abs(wi.z) / pi) : Color(0);
     }
-    if (material.alpha == 0 || wi.z == 0 || wo.z == 0 || (!same_side && !material.transmits())) return C3f(0);
+    if (material.alpha == 0 || wi.z == 0 || wo.z == 0 || (!same_side && !material.transmits())) return Color(0);
     const bool below = wo.z < 0;
     return material.tint *
            estimate_walk(material, relative_index(material, wo), flip_if(wo, below), flip_if(wi, below), sampler);

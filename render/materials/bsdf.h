@@ -11,7 +11,7 @@ namespace scree {
 
 struct BsdfSample {
     V3d wi{0};
-    C3f weight{0};      ///< f |cos| / density
+    Color weight{0};      ///< f |cos| / density
     double pdf = 0;     ///< pdf_bsdf(wo, wi); 0 for a delta direction
     bool valid = false;
 };
@@ -20,7 +20,7 @@ struct BsdfSample {
 BsdfSample sample_bsdf(const Material& material, const V3d& wo, Sampler& sampler);
 
 /// f(wo, wi) |wi.z|; for rough dielectrics and conductors one unbiased estimate of it. 0 for delta materials.
-C3f eval_bsdf(const Material& material, const V3d& wo, const V3d& wi, Sampler& sampler);
+Color eval_bsdf(const Material& material, const V3d& wo, const V3d& wi, Sampler& sampler);
 
 /// The density of sample_bsdf (for rough dielectrics and conductors a stand-in, see proxy_pdf_walk); 0 for delta.
 double pdf_bsdf(const Material& material, const V3d& wo, const V3d& wi);

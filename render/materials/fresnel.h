@@ -38,7 +38,7 @@ inline double fresnel_conductor(double cos_i, double eta, double k)
     return 0.5 * (perpendicular + parallel);
 }
 
-inline C3f fresnel_conductor(double cos_i, const C3f& eta, const C3f& k)
+inline Color fresnel_conductor(double cos_i, const Color& eta, const Color& k)
 {
     return {static_cast<float>(fresnel_conductor(cos_i, eta.x, k.x)), static_cast<float>(fresnel_conductor(cos_i, eta.y, k.y)),
             static_cast<float>(fresnel_conductor(cos_i, eta.z, k.z))};

@@ -19,7 +19,7 @@ struct Walk {
     V3d w;               // direction of travel, in the frame of the side the walk is on
     double c = 1;        // in the frame of that side
     bool below = false;  // on the side of -z
-    C3f weight{1};
+    Color weight{1};
 
     /// Flies to the next facet; false when the walk leaves the microsurface.
     bool fly(double u)
@@ -57,37 +57,37 @@ struct Walk {
 
     /// Density (times weight) of one scattering from -w to out, both in the frame of the walk's side;
     /// `through`: out lies behind the interface.
-    C3f phase(const V3d& out, bool through) const
+    Color phase(const V3d& out, bool through) const
     {
         const V3d in = -w;
         if (!through) {
             const V3d sum = in + out;
             const double length = sum.length();
-            if (!(length > 0)) return C3f(0);
+            if (!(length > 0)) return Color(0);
             V3d m = sum / length;
-            if (m.z <= 0) return C3f(0);
+            if (m.z <= 0) return Color(0);
             const double cosine = in.dot(m);
-            if (cosine <= 0) return C3f(0);
+            if (cosine <= 0) return Color(0);
             const double density = ggx.d_visible(in, m) / (4 * cosine);
             if (material.kind == MaterialKind::conductor) {
                 return fresnel_conductor(std::min(1.0, cosine), material.eta, material.k) * static_cast<float>(density);
             }
             double cos_t;
-            return C3f(static_cast<float>(density * fresnel_dielectric(std::min(1.0, cosine), relative_index(), cos_t)));
+            return Color(static_cast<float>(density * fresnel_dielectric(std::min(1.0, cosine), relative_index(), cos_t)));
         }
         // Walter et al. 2007, eq. 16 and 17: m is along -(in + eta out), here turned to the side of `in`.
         const double n = relative_index();
         V3d m = in + n * out;
         const double length = m.length();
-        if (!(length > 0)) return C3f(0);
+        if (!(length > 0)) return Color(0);
         m *= (m.z < 0 ? -1 : 1) / length;
         const double cos_in = in.dot(m), cos_out = -out.dot(m);
-        if (cos_in <= 0 || cos_out <= 0) return C3f(0);
+        if (cos_in <= 0 || cos_out <= 0) return Color(0);
         double cos_t;
         const double transmittance = 1 - fresnel_dielectric(std::min(1.0, cos_in), n, cos_t);
         const double denominator = cos_in - n * cos_out;
         const double density = ggx.d_visible(in, m) * transmittance * n * n * cos_out / (denominator * denominator);
-        return C3f(static_cast<float>(density));
+        return Color(static_cast<float>(density));
     }
 };
 
@@ -100,23 +100,23 @@ WalkSample sample_walk(const Material& material, double eta, const V3d& wo, Samp
     Walk walk{material, {material.alpha}, eta, -wo};
     while (walk.fly(sampler.next())) {
         walk.scatter(sampler);
-        if (!finite(walk.w)) return {V3d(0), C3f(0), false};
+        if (!finite(walk.w)) return {V3d(0), Color(0), false};
     }
     return {walk.below ? flip(walk.w) : walk.w, walk.weight, true};
 }
 
-C3f estimate_walk(const Material& material, double eta, const V3d& wo, const V3d& wi, Sampler& sampler)
+Color estimate_walk(const Material& material, double eta, const V3d& wo, const V3d& wi, Sampler& sampler)
 {
     const bool to_below = wi.z < 0;
     Walk walk{material, {material.alpha}, eta, -wo};
-    C3f sum(0);
+    Color sum(0);
     while (walk.fly(sampler.next())) {
         const V3d out = walk.below ? flip(wi) : wi;           // in the frame of the walk's side
         const V3d out_own = to_below ? flip(wi) : wi;         // in the frame of its own side: points up
         const bool through = walk.below != to_below;
         const double c_out = through ? 1 - walk.c : walk.c;
         const double escape = std::pow(c_out, walk.ggx.lambda(out_own));
-        const C3f term = walk.weight * walk.phase(out, through) * static_cast<float>(escape);
+        const Color term = walk.weight * walk.phase(out, through) * static_cast<float>(escape);
         if (std::isfinite(term.x + term.y + term.z)) sum += term;
         walk.scatter(sampler);
         if (!finite(walk.w)) break;
@@ -127,7 +127,7 @@ C3f estimate_walk(const Material& material, double eta, const V3d& wo, const V3d
 double proxy_pdf_walk(const Material& material, double eta, const V3d& wo, const V3d& wi)
 {
     const Walk walk{material, {material.alpha}, eta, -wo};
-    const C3f single = walk.phase(wi, wi.z < 0);
+    const Color single = walk.phase(wi, wi.z < 0);
     const double lobe = 0.2 * std::abs(wi.z) / pi; // the walks of more than one bounce, roughly
     return 0.8 * luminance(single) + lobe;
 }

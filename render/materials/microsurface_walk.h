@@ -11,7 +11,7 @@ namespace scree {
 /// Weights are those of basic radiance L / n^2, which an interface conserves.
 struct WalkSample {
     V3d wi;         ///< z < 0: transmitted
-    C3f weight{1};  ///< 1 for a dielectric, the product of Fresnel reflectances for a conductor
+    Color weight{1};  ///< 1 for a dielectric, the product of Fresnel reflectances for a conductor
     bool valid = true;
 };
 
@@ -19,7 +19,7 @@ struct WalkSample {
 WalkSample sample_walk(const Material& material, double eta, const V3d& wo, Sampler& sampler);
 
 /// One unbiased estimate of f(wo, wi) |wi.z|.
-C3f estimate_walk(const Material& material, double eta, const V3d& wo, const V3d& wi, Sampler& sampler);
+Color estimate_walk(const Material& material, double eta, const V3d& wo, const V3d& wi, Sampler& sampler);
 
 /// A density over wi like that of sample_walk, but not equal to it: single scattering plus a share of cosine lobes.
 /// Good for weighing strategies, which needs only that all of them use the same function.

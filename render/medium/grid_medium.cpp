@@ -82,7 +82,7 @@ public:
     std::optional<double> event(double t0, double t1, Sampler& sampler) const;
     std::optional<double> chromatic_event(double t0, double t1, SpectralState& state, Sampler& sampler) const;
     double transmittance(double t0, double t1, Sampler& sampler) const;
-    C3f chromatic_transmittance(double t0, double t1, Sampler& sampler) const;
+    Color chromatic_transmittance(double t0, double t1, Sampler& sampler) const;
 
 private:
     const DensityRegion& regions(int32_t index) const { return medium_.regions[static_cast<size_t>(index)]; }
@@ -217,7 +217,7 @@ std::optional<double> Walk::chromatic_event(double t0, double t1, SpectralState&
             depth = draw_optical_depth(sampler);
         }
     });
-    const C3f factor(static_cast<float>(ratio[0]), static_cast<float>(ratio[1]), static_cast<float>(ratio[2]));
+    const Color factor(static_cast<float>(ratio[0]), static_cast<float>(ratio[1]), static_cast<float>(ratio[2]));
     state.multiply(factor);
     return scattered;
 }
@@ -254,7 +254,7 @@ double Walk::transmittance(double t0, double t1, Sampler& sampler) const
     return left;
 }
 
-C3f Walk::chromatic_transmittance(double t0, double t1, Sampler& sampler) const
+Color Walk::chromatic_transmittance(double t0, double t1, Sampler& sampler) const
 {
     std::array<double, 3> left{1, 1, 1};
     const auto is_lost = [&] {
@@ -307,11 +307,11 @@ MediumEvent GridMedium::event(const V3d& o, const V3d& d, double t0, double t1, 
     return event;
 }
 
-C3f GridMedium::transmittance(const V3d& o, const V3d& d, double t0, double t1, Sampler& sampler) const
+Color GridMedium::transmittance(const V3d& o, const V3d& d, double t0, double t1, Sampler& sampler) const
 {
     const Walk walk(*data_, o, d);
-    if (!walk.is_sound()) return C3f(1);
-    return data_->achromatic ? C3f(static_cast<float>(walk.transmittance(t0, t1, sampler))) : walk.chromatic_transmittance(t0, t1, sampler);
+    if (!walk.is_sound()) return Color(1);
+    return data_->achromatic ? Color(static_cast<float>(walk.transmittance(t0, t1, sampler))) : walk.chromatic_transmittance(t0, t1, sampler);
 }
 
 Imath::Box3d GridMedium::bounds() const
@@ -347,13 +347,13 @@ double GridMedium::voxel() const
     return edge;
 }
 
-C3f GridMedium::sigma_t(const V3d& p) const
+Color GridMedium::sigma_t(const V3d& p) const
 {
     const Sigma sigma = data_->sigma_of(data_->density.at(p));
     return {static_cast<float>(sigma[0]), static_cast<float>(sigma[1]), static_cast<float>(sigma[2])};
 }
 
-C3f GridMedium::albedo(const V3d& p) const { return data_->albedo_at(p); }
+Color GridMedium::albedo(const V3d& p) const { return data_->albedo_at(p); }
 double GridMedium::g(const V3d& p) const { return data_->g_at(p); }
 
 } // namespace scree

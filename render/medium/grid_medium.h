@@ -11,8 +11,8 @@ namespace scree {
 
 /// How the numbers of the grids are to be read.
 struct GridMediumOptions {
-    C3f scale{1};         ///< sigma_t = scale * density, per unit of length of the scene
-    C3f albedo{1};        ///< where there is no albedo grid
+    Color scale{1};         ///< sigma_t = scale * density, per unit of length of the scene
+    Color albedo{1};        ///< where there is no albedo grid
     double g = 0;         ///< where there is no grid of g
     bool nearest = false; ///< no interpolation: sigma_t, albedo and g are constant over a voxel
 };
@@ -34,7 +34,7 @@ public:
     MediumEvent event(const V3d& o, const V3d& d, double t0, double t1, SpectralState& state, Sampler& sampler) const;
 
     /// Unbiased estimate of the transmittance per channel over t0..t1, in 0..1; Russian roulette below 0.1.
-    C3f transmittance(const V3d& o, const V3d& d, double t0, double t1, Sampler& sampler) const;
+    Color transmittance(const V3d& o, const V3d& d, double t0, double t1, Sampler& sampler) const;
 
     /// A box around everything that is not empty; empty when nothing is.
     Imath::Box3d bounds() const;
@@ -44,8 +44,8 @@ public:
     uint64_t bytes() const;
     double voxel() const; ///< shortest edge of a voxel of the density
     /// Anywhere; sigma_t per channel.
-    C3f sigma_t(const V3d& p) const;
-    C3f albedo(const V3d& p) const;
+    Color sigma_t(const V3d& p) const;
+    Color albedo(const V3d& p) const;
     double g(const V3d& p) const;
 
 private:

@@ -39,7 +39,7 @@ void GridMediumData::prepare()
     }
 }
 
-C3f GridMediumData::albedo_at(const V3d& p) const
+Color GridMediumData::albedo_at(const V3d& p) const
 {
     if (!has_albedo) return options.albedo;
     const std::array<double, 3> a = albedo.at(p);

@@ -2,9 +2,9 @@
 
 namespace scree {
 
-HomogeneousMedium::HomogeneousMedium(const Imath::V3d& sigma_t, const C3f& albedo, double g) : sigma_t_(sigma_t), albedo_(albedo), phase_(g) {}
+HomogeneousMedium::HomogeneousMedium(const Imath::V3d& sigma_t, const Color& albedo, double g) : sigma_t_(sigma_t), albedo_(albedo), phase_(g) {}
 
-HomogeneousMedium::HomogeneousMedium(const Imath::V3d& sigma_t, const C3f& albedo, std::shared_ptr<const PhaseTable> table)
+HomogeneousMedium::HomogeneousMedium(const Imath::V3d& sigma_t, const Color& albedo, std::shared_ptr<const PhaseTable> table)
     : sigma_t_(sigma_t), albedo_(albedo), table_(std::move(table)), phase_(table_.get())
 {
 }
@@ -17,7 +17,7 @@ MediumEvent HomogeneousMedium::event(double t0, double t1, SpectralState& state,
     const bool scattered = t < t1;
     if (!is_achromatic()) {
         const double length = (scattered ? t : t1) - t0;
-        C3f factor(1);
+        Color factor(1);
         for (int c = 0; c < 3; ++c) {
             if (sigma_t_[c] == sigma) continue;
             const double ratio = std::exp((sigma - sigma_t_[c]) * length) * (scattered ? sigma_t_[c] / sigma : 1);
@@ -28,10 +28,10 @@ MediumEvent HomogeneousMedium::event(double t0, double t1, SpectralState& state,
     return {scattered, t, albedo_, phase_};
 }
 
-C3f HomogeneousMedium::transmittance(double length) const
+Color HomogeneousMedium::transmittance(double length) const
 {
     const auto of = [&](double sigma) { return sigma > 0 ? static_cast<float>(std::exp(-sigma * length)) : 1.0f; };
-    if (is_achromatic()) return C3f(of(sigma_t_.x));
+    if (is_achromatic()) return Color(of(sigma_t_.x));
     return {of(sigma_t_.x), of(sigma_t_.y), of(sigma_t_.z)};
 }
 

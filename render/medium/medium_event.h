@@ -9,7 +9,7 @@ namespace scree {
 struct MediumEvent {
     bool scattered = false;
     double t = 0;    ///< along the ray, if it scattered
-    C3f albedo{1};   ///< there: part of the light that is not absorbed
+    Color albedo{1};   ///< there: part of the light that is not absorbed
     PhaseFunction phase; ///< there
 };
 
@@ -17,14 +17,14 @@ struct MediumEvent {
 /// balance heuristic (Wilkie et al. 2014, hero wavelength sampling): a channel counts ratio / mean(ratio).
 struct SpectralState {
     uint32_t hero = 0; ///< channel
-    C3f ratio{1};      ///< density of this walk, had another channel been the hero, over its density
+    Color ratio{1};      ///< density of this walk, had another channel been the hero, over its density
 
-    void multiply(const C3f& factor)
+    void multiply(const Color& factor)
     {
         constexpr float most = 1e30f; // so much likelier for another hero, a walk counts nothing here; but it stays a number
         for (int c = 0; c < 3; ++c) ratio[c] = std::min(ratio[c] * factor[c], most);
     }
-    C3f weight() const { return ratio * (3 / (ratio.x + ratio.y + ratio.z)); }
+    Color weight() const { return ratio * (3 / (ratio.x + ratio.y + ratio.z)); }
 };
 
 } // namespace scree

@@ -49,7 +49,7 @@ MediumPyramid::Cell MediumPyramid::cell_at(const GridMedium& medium, const V3d& 
 {
     Cell cell;
     cell.sigma_t = medium.sigma_t(place).x;
-    const C3f albedo = medium.albedo(place);
+    const Color albedo = medium.albedo(place);
     for (unsigned c = 0; c < 3; ++c) cell.scattered[c] = cell.sigma_t * albedo[c];
     cell.forward = static_cast<float>(cell.brightest() * medium.g(place));
     cell.forget_range();

@@ -37,7 +37,7 @@ struct MediumRegion {
         return homogeneous ? homogeneous->event(t0, t1, state, sampler) : grid->event(o, d, t0, t1, state, sampler);
     }
     /// An unbiased estimate of what passes between t0 and t1.
-    C3f transmittance(const V3d& o, const V3d& d, double t0, double t1, Sampler& sampler) const
+    Color transmittance(const V3d& o, const V3d& d, double t0, double t1, Sampler& sampler) const
     {
         return homogeneous ? homogeneous->transmittance(t1 - t0) : grid->transmittance(o, d, t0, t1, sampler);
     }

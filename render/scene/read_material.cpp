@@ -16,7 +16,7 @@ double read_alpha(JsonObject& object)
     return r * r;
 }
 
-C3f read_rgb(JsonObject& object, const std::string& key, const C3f& absent, double lo, double hi)
+Color read_rgb(JsonObject& object, const std::string& key, const Color& absent, double lo, double hi)
 {
     const auto value = object.find(key);
     return value ? value->rgb(lo, hi) : absent;
@@ -37,8 +37,8 @@ Material read_material(const JsonValue& json)
         const auto ior = object.find("ior");
         if (ior) material.ior = ior->number(0.1, 10);
         material.alpha = read_alpha(object);
-        material.absorption = read_rgb(object, "absorption", C3f(0), 0, largest);
-        material.tint = read_rgb(object, "tint", C3f(1), 0, 1);
+        material.absorption = read_rgb(object, "absorption", Color(0), 0, largest);
+        material.tint = read_rgb(object, "tint", Color(1), 0, 1);
         if (material.ior == 1) material.alpha = 0; // nothing to be rough
         break;
     }
@@ -46,7 +46,7 @@ Material read_material(const JsonValue& json)
         material.eta = object.require("eta").rgb(0, largest);
         material.k = object.require("k").rgb(0, largest);
         material.alpha = read_alpha(object);
-        material.tint = read_rgb(object, "tint", C3f(1), 0, 1);
+        material.tint = read_rgb(object, "tint", Color(1), 0, 1);
         break;
     }
     object.done();

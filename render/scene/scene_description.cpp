@@ -105,7 +105,7 @@ LightDescription read_light(const JsonValue& json)
     LightDescription light;
     light.place = json.place();
     light.kind = static_cast<Kind>(object.require("kind").choice({"constant", "environment", "distant", "rectangle", "sphere"}));
-    const auto rgb = [&](const char* key, C3f& value) {
+    const auto rgb = [&](const char* key, Color& value) {
         if (const auto found = object.find(key)) value = found->rgb(0, largest);
     };
     switch (light.kind) {

@@ -30,12 +30,12 @@ struct FilmDescription {
 /// A light as the scene file has it, in the scene's unit.
 struct LightDescription {
     enum class Kind : uint8_t { constant, environment, distant, rectangle, sphere } kind = Kind::constant;
-    C3f radiance{1};               ///< constant, rectangle, sphere
+    Color radiance{1};               ///< constant, rectangle, sphere
     std::filesystem::path file;    ///< environment
-    C3f scale{1};                  ///< environment
+    Color scale{1};                  ///< environment
     V3d up{0, 0, 1};               ///< environment
     V3d direction{0, 0, -1};       ///< distant: in which the light travels
-    C3f irradiance{1};             ///< distant: on a plane facing it
+    Color irradiance{1};             ///< distant: on a plane facing it
     double angle = 0.53;           ///< distant: angular diameter, degrees
     V3d corner{0}, edge1{0}, edge2{0};
     V3d center{0};
@@ -87,8 +87,8 @@ struct AssemblyDescription {
 /// A medium that the scene names: the same within a mesh, or varying as a file of OpenVDB grids has it.
 struct MediumDescription {
     std::filesystem::path mesh, vdb;   ///< one of them
-    C3f sigma_t{1};                    ///< mesh: extinction per unit of length; vdb: the same for a density of 1
-    C3f albedo{1};
+    Color sigma_t{1};                    ///< mesh: extinction per unit of length; vdb: the same for a density of 1
+    Color albedo{1};
     double g = 0;                      ///< of Henyey and Greenstein
     std::string density = "density";   ///< vdb: names of grids
     std::string albedo_grid, g_grid;   ///< vdb: empty where it is the same everywhere

@@ -296,7 +296,7 @@ std::shared_ptr<const EnvironmentMap> WorldBuilder::Impl::read_map(size_t light)
     auto& map = maps[light];
     const Stopwatch watch;
     if (!map) map = std::make_shared<EnvironmentMap>(read_environment(description.file, description.up, description.scale));
-    parts.push_back({"environment map", true, description.file.filename().string(), watch.seconds(), map->texels().size() * sizeof(C3f)});
+    parts.push_back({"environment map", true, description.file.filename().string(), watch.seconds(), map->texels().size() * sizeof(Color)});
     hash = hash_vector(map->texels(), hash);
     return map;
 }

@@ -15,12 +15,12 @@ struct FittingShell {
     double length = 0;     ///< radius
     double radius = 0;     ///< in mean free paths
     double sigma_t = 0;
-    C3f albedo{1};
+    Color albedo{1};
     float sampled_albedo = 1; ///< that the shell's records are drawn by; no channel's is larger
     PhaseFunction phase; ///< that its records were drawn from
 
     /// What a record of so many scatterings counts per channel, over what the sampled albedo's does.
-    C3f ratio(uint32_t events) const
+    Color ratio(uint32_t events) const
     {
         const auto of = [&](float a) {
             if (a == sampled_albedo) return 1.0f;

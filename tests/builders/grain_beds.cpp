@@ -27,11 +27,11 @@ std::unique_ptr<TestScene> lay(const BedGrain& grain, double fraction, uint64_t 
 
 Light sky(float top, float bottom)
 {
-    std::vector<C3f> texels(32 * 16, C3f(bottom));
-    std::fill(texels.begin(), texels.begin() + 32 * 8, C3f(top));
+    std::vector<Color> texels(32 * 16, Color(bottom));
+    std::fill(texels.begin(), texels.begin() + 32 * 8, Color(top));
     Light light;
     light.kind = LightKind::environment;
-    light.map = std::make_shared<EnvironmentMap>(texels, 32, 16, V3d(0, 0, 1), C3f(1));
+    light.map = std::make_shared<EnvironmentMap>(texels, 32, 16, V3d(0, 0, 1), Color(1));
     return light;
 }
 
@@ -41,7 +41,7 @@ std::vector<BedGrain> bed_grains(double gsdf_error)
 {
     static const EmbreeDevice device;
     Material tea = dielectric(1.5);
-    tea.absorption = C3f(0.05f, 0.2f, 0.8f);
+    tea.absorption = Color(0.05f, 0.2f, 0.8f);
     std::vector<BedGrain> grains{{"glass spheres", dielectric(1.5), nullptr, nullptr}, {"tea glass spheres", tea, nullptr, nullptr},
                                  {"white 0.9 spheres", lambert(0.9f), nullptr, nullptr},
                                  {"glass cubes", dielectric(1.5), std::make_shared<Exemplar>(device, cube(), "cube"), nullptr}};
@@ -74,7 +74,7 @@ std::unique_ptr<TestScene> make_bed_under_sun(const BedGrain& grain, double frac
     sun.kind = LightKind::distant;
     sun.direction = V3d(0.5, 0.3, 0.8).normalized();
     sun.one_minus_cos = 2 * std::pow(std::sin(diameter * pi / 720), 2);
-    sun.radiance = C3f(static_cast<float>(3 / (pi * sun.one_minus_cos * (2 - sun.one_minus_cos))));
+    sun.radiance = Color(static_cast<float>(3 / (pi * sun.one_minus_cos * (2 - sun.one_minus_cos))));
     scene->add_light(sun);
     scene->build();
     return scene;

@@ -37,12 +37,12 @@ void TestScene::add_grains(const std::vector<PackedSphere>& spheres, uint32_t ty
 }
 
 void TestScene::add_surface(const TriangleMesh& mesh, const Material& material) { surfaces_.emplace_back(mesh, material); }
-void TestScene::add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const C3f& albedo, double g, bool instead_of_grains)
+void TestScene::add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const Color& albedo, double g, bool instead_of_grains)
 {
     media_.push_back({mesh, sigma_t, albedo, g, instead_of_grains, nullptr});
 }
 
-void TestScene::add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const C3f& albedo, std::shared_ptr<const PhaseTable> table)
+void TestScene::add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const Color& albedo, std::shared_ptr<const PhaseTable> table)
 {
     media_.push_back({mesh, sigma_t, albedo, 0, false, std::move(table)});
 }
@@ -53,7 +53,7 @@ void TestScene::add_constant_light(float radiance)
 {
     Light light;
     light.kind = LightKind::constant;
-    light.radiance = C3f(radiance);
+    light.radiance = Color(radiance);
     add_light(light);
 }
 
@@ -61,7 +61,7 @@ void TestScene::add_white_environment()
 {
     Light light;
     light.kind = LightKind::environment;
-    light.map = std::make_shared<EnvironmentMap>(std::vector<C3f>(16 * 8, C3f(1)), 16, 8, V3d(0, 0, 1), C3f(1));
+    light.map = std::make_shared<EnvironmentMap>(std::vector<Color>(16 * 8, Color(1)), 16, 8, V3d(0, 0, 1), Color(1));
     add_light(light);
 }
 
@@ -134,7 +134,7 @@ Material lambert(float reflectance)
 {
     Material material;
     material.kind = MaterialKind::lambert;
-    material.reflectance = C3f(reflectance);
+    material.reflectance = Color(reflectance);
     return material;
 }
 
@@ -154,7 +154,7 @@ Light rectangle_light(const V3d& corner, const V3d& edge1, const V3d& edge2, flo
     light.corner = corner;
     light.edge1 = edge1;
     light.edge2 = edge2;
-    light.radiance = C3f(radiance);
+    light.radiance = Color(radiance);
     return light;
 }
 
@@ -164,7 +164,7 @@ Light sphere_light(const V3d& center, double radius, float radiance)
     light.kind = LightKind::sphere;
     light.center = center;
     light.radius = radius;
-    light.radiance = C3f(radiance);
+    light.radiance = Color(radiance);
     return light;
 }
 
@@ -174,7 +174,7 @@ Light distant_light(const V3d& direction, double one_minus_cos, float radiance)
     light.kind = LightKind::distant;
     light.direction = direction.normalized();
     light.one_minus_cos = one_minus_cos;
-    light.radiance = C3f(radiance);
+    light.radiance = Color(radiance);
     return light;
 }
 

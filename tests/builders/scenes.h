@@ -32,9 +32,9 @@ public:
     void add_grains(const std::vector<PackedSphere>& spheres, uint32_t type);
     void add_surface(const TriangleMesh& mesh, const Material& material);
     /// sigma_t per unit of length. instead_of_grains: grains in there are not met.
-    void add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const C3f& albedo, double g, bool instead_of_grains = false);
+    void add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const Color& albedo, double g, bool instead_of_grains = false);
     /// The same with a phase function of a table.
-    void add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const C3f& albedo, std::shared_ptr<const PhaseTable> table);
+    void add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const Color& albedo, std::shared_ptr<const PhaseTable> table);
     void add_light(const Light& light);
     void add_constant_light(float radiance);
     /// White from everywhere as well, but as a light that is sampled.
@@ -64,7 +64,7 @@ private:
     struct Medium {
         TriangleMesh mesh;
         V3d sigma_t;
-        C3f albedo;
+        Color albedo;
         double g;
         bool instead_of_grains;
         std::shared_ptr<const PhaseTable> table; ///< null: g is told

@@ -7,7 +7,7 @@
 
 namespace scree {
 
-std::unique_ptr<TestScene> slab(double depth, const V3d& sigma_t, const C3f& albedo, double g, std::optional<StfForm> shells)
+std::unique_ptr<TestScene> slab(double depth, const V3d& sigma_t, const Color& albedo, double g, std::optional<StfForm> shells)
 {
     auto scene = std::make_unique<TestScene>();
     const double wide = 3e3 * depth;
@@ -32,7 +32,7 @@ GridSlab::GridSlab(double depth, double sigma_t, float albedo, double g, double 
     const TriangleMesh mesh = box_mesh(unit * V3d(-0.5 * wide, -0.5 * wide, -0.5 * depth), unit * V3d(0.5 * wide, 0.5 * wide, 0.5 * depth));
     MediumRegion region{"slab", {}, mesh.triangles, nullptr, nullptr, nullptr, false};
     GridMediumOptions options;
-    options.albedo = C3f(albedo);
+    options.albedo = Color(albedo);
     options.g = g;
     region.grid = std::make_shared<GridMedium>(make_grid_medium(grids, options, {}, {}));
     for (const V3d& p : mesh.positions) region.positions.emplace_back(p);
@@ -45,7 +45,7 @@ GridSlab::GridSlab(double depth, double sigma_t, float albedo, double g, double 
 ReflectedAndPassed shine(const World& world, const Tracer& tracer, double distance, uint32_t paths, double cosine, uint64_t seed)
 {
     struct Value {
-        C3f radiance;
+        Color radiance;
         bool up;
     };
     std::vector<Value> values(paths);

@@ -10,7 +10,7 @@
 namespace scree {
 
 /// A slab between z = 0 and z = -depth, far wider than light goes, under a white sky; shells: how light goes through them, or not at all.
-std::unique_ptr<TestScene> slab(double depth, const V3d& sigma_t, const C3f& albedo, double g, std::optional<StfForm> shells = {});
+std::unique_ptr<TestScene> slab(double depth, const V3d& sigma_t, const Color& albedo, double g, std::optional<StfForm> shells = {});
 
 /// The slab as a grid of equal voxels in its box, between z = depth / 2 and -depth / 2.
 struct GridSlab {

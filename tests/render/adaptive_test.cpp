@@ -15,7 +15,7 @@ using namespace test;
 /// A sample of mean 1: a half, and with probability p what is missing.
 struct RareLight {
     double p;
-    C3f operator()(Sampler& sampler) const { return C3f(static_cast<float>(0.5 + (sampler.next() < p ? 0.5 / p : 0.0))); }
+    Color operator()(Sampler& sampler) const { return Color(static_cast<float>(0.5 + (sampler.next() < p ? 0.5 / p : 0.0))); }
 };
 
 void draw(Film& film, int tile, uint32_t target, uint64_t seed, const RareLight& light)
@@ -28,7 +28,7 @@ void draw(Film& film, int tile, uint32_t target, uint64_t seed, const RareLight&
             while (pixel.drawn < target) {
                 const uint32_t s = pixel.drawn++;
                 Sampler sampler(seed, static_cast<uint32_t>(x), static_cast<uint32_t>(y), s);
-                const C3f radiance = light(sampler);
+                const Color radiance = light(sampler);
                 pixel.add(radiance, {});
                 film.halves_at(x, y).add(s, radiance, counts);
             }

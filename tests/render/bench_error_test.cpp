@@ -154,7 +154,7 @@ TEST(HalfPictures, WeighsHalvesByTheirSamples)
 {
     std::vector<Film> films(3, Film(1, 1, 0, 0, 1, 1));
     for (size_t f = 0; f < 3; ++f)
-        for (size_t s = 0; s <= f; ++s) films[f].at(0, 0).add(C3f(static_cast<float>(f)), {});
+        for (size_t s = 0; s <= f; ++s) films[f].at(0, 0).add(Color(static_cast<float>(f)), {});
     const HalfPictures picture = make_halves(films); // a: 0, 2, 2, 2; b: 1, 1
     EXPECT_DOUBLE_EQ(picture.a[0].x, 1.5);
     EXPECT_DOUBLE_EQ(picture.b[0].x, 1);

@@ -27,8 +27,8 @@ Material conductor(double alpha)
 {
     Material material;
     material.kind = MaterialKind::conductor;
-    material.eta = C3f(0.2f);
-    material.k = C3f(3.9f);
+    material.eta = Color(0.2f);
+    material.k = Color(3.9f);
     material.alpha = alpha;
     return material;
 }
@@ -180,8 +180,8 @@ TEST(Rough, DielectricWeightsAreOne)
 TEST(Rough, WhiteConductorLosesNothing)
 {
     Material white = conductor(0.8);
-    white.eta = C3f(0);
-    white.k = C3f(1);
+    white.eta = Color(0);
+    white.k = Color(1);
     Sampler sampler(6, 0, 0, 0);
     for (int i = 0; i < 20000; ++i) {
         const BsdfSample s = sample_bsdf(white, direction(0.2), sampler);

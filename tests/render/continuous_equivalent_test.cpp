@@ -26,7 +26,7 @@ std::vector<Grains>& all_grains_once()
         static const EmbreeDevice device;
         static const Exemplar body(device, cube(), "cube");
         Material tea = dielectric(1.5);
-        tea.absorption = C3f(0.05f, 0.2f, 0);
+        tea.absorption = Color(0.05f, 0.2f, 0);
         const auto glass = build_gsdf({nullptr, dielectric(1.5)}, {0.08});
         return std::vector<Grains>{{lambert(1), build_gsdf({nullptr, lambert(1)}, {0.08})}, {dielectric(1.5), glass}, {tea, glass},
                                    {lambert(0.7f), build_gsdf({&body, lambert(1)}, {0.08})}};

@@ -63,20 +63,20 @@ TEST(Filter, HasItsMoments)
 TEST(Pixel, KeepsMeanVarianceAndWhatItSaw)
 {
     Pixel pixel;
-    EXPECT_EQ(pixel.mean(), C3f(0.0f));
-    EXPECT_EQ(pixel.variance(), C3f(0.0f));
+    EXPECT_EQ(pixel.mean(), Color(0.0f));
+    EXPECT_EQ(pixel.variance(), Color(0.0f));
     FirstHit hit;
     hit.hit = true;
-    hit.albedo = C3f(0.5f);
+    hit.albedo = Color(0.5f);
     hit.depth = 3;
     hit.type = 2;
     hit.id = 77;
-    pixel.add(C3f(1, 2, 3), hit);
-    EXPECT_EQ(pixel.variance(), C3f(0.0f)) << "one sample says nothing of variance";
-    pixel.add(C3f(3, 2, 6), {});
-    EXPECT_EQ(pixel.mean(), C3f(2, 2, 4.5f));
+    pixel.add(Color(1, 2, 3), hit);
+    EXPECT_EQ(pixel.variance(), Color(0.0f)) << "one sample says nothing of variance";
+    pixel.add(Color(3, 2, 6), {});
+    EXPECT_EQ(pixel.mean(), Color(2, 2, 4.5f));
     // Samples 1 and 3: variance 2 of one, 1 of the mean of two.
-    EXPECT_EQ(pixel.variance(), C3f(1, 0, 2.25f));
+    EXPECT_EQ(pixel.variance(), Color(1, 0, 2.25f));
     EXPECT_EQ(pixel.samples, 2u);
     EXPECT_EQ(pixel.hits, 1u);
     EXPECT_EQ(pixel.type, 2u);
@@ -93,8 +93,8 @@ Film noise_film(int width, int height)
         FirstHit hit;
         hit.hit = true;
         hit.depth = sampler.next();
-        pixel.add(C3f(static_cast<float>(sampler.next()), static_cast<float>(sampler.next()), static_cast<float>(sampler.next())), hit);
-        pixel.add(C3f(static_cast<float>(sampler.next())), hit);
+        pixel.add(Color(static_cast<float>(sampler.next()), static_cast<float>(sampler.next()), static_cast<float>(sampler.next())), hit);
+        pixel.add(Color(static_cast<float>(sampler.next())), hit);
     }
     return film;
 }
@@ -127,7 +127,7 @@ TEST(ExrFile, HasThePixelsOfTheFilm)
     const TemporaryFolder folder;
     Film film(100, 50, 20, 10, 31, 17); // a part of a picture
     Sampler sampler(4, 0, 0, 0);
-    for (Pixel& pixel : film.pixels()) pixel.add(C3f(static_cast<float>(sampler.next()), 1e-30f, 3e38f), {});
+    for (Pixel& pixel : film.pixels()) pixel.add(Color(static_cast<float>(sampler.next()), 1e-30f, 3e38f), {});
     write_exr(folder.path("a.exr"), film, {Aov::samples, Aov::id}, {});
     const Picture picture = read_picture(folder.path("a.exr"));
     EXPECT_EQ(picture.display, Imath::Box2i({0, 0}, {99, 49}));
@@ -206,9 +206,9 @@ TEST(Aov, OfSpheresAreAsByHand)
         V3d c;
         double r;
         uint32_t type, id;
-        C3f albedo;
+        Color albedo;
     };
-    const Sphere spheres[] = {{V3d(0), 1, 0, 4000000000u, C3f(0.25f, 0.5f, 0.75f)}, {V3d(1.5, 3, 0.5), 0.75, 1, 12, C3f(0.5f, 0.75f, 1)}, {V3d(-1.5, 1, -1.25), 0.5, 2, 13, C3f(0.25f)}};
+    const Sphere spheres[] = {{V3d(0), 1, 0, 4000000000u, Color(0.25f, 0.5f, 0.75f)}, {V3d(1.5, 3, 0.5), 0.75, 1, 12, Color(0.5f, 0.75f, 1)}, {V3d(-1.5, 1, -1.25), 0.5, 2, 13, Color(0.25f)}};
     int seen[4] = {};
     for (int y = 0; y < 41; ++y) {
         for (int x = 0; x < 51; ++x) {
@@ -230,8 +230,8 @@ TEST(Aov, OfSpheresAreAsByHand)
             ++seen[met ? met->type : 3];
             ASSERT_EQ(picture.integers.at("type")[i], met ? met->type : no_grain) << x << "," << y;
             ASSERT_EQ(picture.integers.at("id")[i], met ? met->id : no_grain);
-            const C3f albedo = met ? met->albedo : C3f(0.0f);
-            ASSERT_EQ(C3f(value("albedo.R"), value("albedo.G"), value("albedo.B")), albedo);
+            const Color albedo = met ? met->albedo : Color(0.0f);
+            ASSERT_EQ(Color(value("albedo.R"), value("albedo.G"), value("albedo.B")), albedo);
             ASSERT_NEAR(value("Z"), depth, 1e-5);
             const V3d normal = met ? (V3d(px, depth - 10, pz) - met->c) / met->r : V3d(0);
             ASSERT_NEAR(value("N.X"), normal.x, 1e-4);

@@ -227,7 +227,7 @@ TEST_P(LibraryFurnace, LosslessGrainsAreWhite)
 {
     const LibraryGrain& grain = *find_library_grain(GetParam());
     Material lossless = grain.material;
-    lossless.absorption = C3f(0.0f);
+    lossless.absorption = Color(0.0f);
     TestScene scene;
     const uint32_t type = scene.add_type(lossless, shape_of(grain, 5000));
     scene.add_grain(V3d(-0.95, 0, 0), 1, type); // they overlap, as those of simulations do

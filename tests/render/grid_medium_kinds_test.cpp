@@ -22,7 +22,7 @@ TEST(GridMediumKinds, Scaling)
         grids.density = make_grid(edge, 0.05, V3d(-1, -0.7, 3), density);
         grids.to_scene.setScale(V3d(scale));
         GridMediumOptions options;
-        options.scale = C3f(static_cast<float>(2 / scale));
+        options.scale = Color(static_cast<float>(2 / scale));
         RenderSpace space;
         space.origin = V3d(0.1, 0.2, 4) * scale;
         space.exponent = exponent;
@@ -58,7 +58,7 @@ TEST(GridMediumKinds, ChromaticClosedForms)
     const double h = 0.05;
     // Constant bricks; uneven ones by delta tracking; dense uneven ones in closed form.
     struct Case {
-        C3f scale;
+        Color scale;
         bool uneven;
     };
     for (const Case& c : {Case{{0.5f, 1.0f, 2.0f}, false}, Case{{0.0f, 1.0f, 3.0f}, false}, Case{{0.5f, 1.0f, 2.0f}, true}, Case{{300, 700, 900}, true}}) {
@@ -74,7 +74,7 @@ TEST(GridMediumKinds, ChromaticClosedForms)
             SpectralState state;
             state.hero = std::min(2u, static_cast<uint32_t>(3 * sampler.next()));
             const MediumEvent event = medium.event(ray.o, ray.d, ray.t0, ray.t1, state, sampler);
-            const C3f t = medium.transmittance(ray.o, ray.d, ray.t0, ray.t1, sampler);
+            const Color t = medium.transmittance(ray.o, ray.d, ray.t0, ray.t1, sampler);
             for (int k = 0; k < 3; ++k) {
                 const size_t at = static_cast<size_t>(k);
                 const double weight = double{state.weight()[k]};
@@ -101,8 +101,8 @@ TEST(GridMediumKinds, ChromaticClosedForms)
 TEST(GridMediumKinds, ChromaticPathsWithAlbedo)
 {
     GridMediumOptions options;
-    options.scale = C3f(1, 2, 4);
-    options.albedo = C3f(0.9f, 0.7f, 0.5f);
+    options.scale = Color(1, 2, 4);
+    options.albedo = Color(0.9f, 0.7f, 0.5f);
     const GridMedium medium = make_medium(make_grid(edge, 0.05, V3d(-1), [](int i, int j, int k) { return 0.3 + ((i + 2 * j + k) % 5) * 0.3; }), options);
     const Ray ray{{-0.8, -0.3, -0.4}, V3d(1, 0.3, 0.4).normalized(), 0, 1};
     double depth = 0;
@@ -113,7 +113,7 @@ TEST(GridMediumKinds, ChromaticPathsWithAlbedo)
         SpectralState state;
         state.hero = std::min(2u, static_cast<uint32_t>(3 * sampler.next()));
         double t = 0;
-        C3f kept(1);
+        Color kept(1);
         for (;;) {
             const MediumEvent event = medium.event(ray.o, ray.d, t, 1, state, sampler);
             if (!event.scattered) break;
@@ -147,7 +147,7 @@ TEST(GridMediumKinds, VectorsOfDensity)
         SpectralState state;
         state.hero = std::min(2u, static_cast<uint32_t>(3 * sampler.next()));
         const bool scattered = medium.event(a, d, 0, length, state, sampler).scattered;
-        const C3f t = medium.transmittance(a, d, 0, length, sampler);
+        const Color t = medium.transmittance(a, d, 0, length, sampler);
         for (int k = 0; k < 3; ++k) {
             passed[static_cast<size_t>(k)].add(scattered ? 0 : double{state.weight()[k]});
             transmitted[static_cast<size_t>(k)].add(double{t[k]});
@@ -196,7 +196,7 @@ TEST(GridMediumKinds, AlbedoAndAsymmetryGrids)
     grids.albedo = albedo;
     grids.g = make_grid(20, 0.1, V3d(0), [](int, int j, int) { return 0.04 * j - 0.5; });
     const GridMedium medium = make_grid_medium(grids, {}, {}, {});
-    const C3f a = medium.albedo({0.75, 1, 1});
+    const Color a = medium.albedo({0.75, 1, 1});
     EXPECT_NEAR(a.x, 0.3f, 1e-6f);
     EXPECT_NEAR(a.y, 0.5f, 1e-6f);
     EXPECT_NEAR(medium.albedo({1, 1, -0.05}).z, 0.9f, 1e-6f);

@@ -57,7 +57,7 @@ TEST(GridMedium, CheckeredNearest)
     const double h = 0.05;
     GridMediumOptions options;
     options.nearest = true;
-    options.scale = C3f(1.5f);
+    options.scale = Color(1.5f);
     const GridMedium medium = make_medium(make_grid(edge, h, V3d(-1), [](int i, int j, int k) { return (i + j + k) % 2 ? 2.0 : 0.0; }), options);
     // Along an axis half of the voxels; along the diagonal of x and y, through the middles of edges' faces: always the same parity.
     expect_depth(medium, {{-3, 0.012, 0.013}, {1, 0, 0}}, 1.5 * 2 * h * edge / 2, 40000);
@@ -77,7 +77,7 @@ TEST(GridMedium, AnyRayThroughASparseGrid)
     for (const bool nearest : {false, true}) {
         GridMediumOptions options;
         options.nearest = nearest;
-        options.scale = C3f(3);
+        options.scale = Color(3);
         const GridMedium medium = make_medium(make_grid(edge, h, V3d(-1), [](int i, int j, int k) {
             const int cell = (i / 7) * 31 + (j / 5) * 17 + (k / 6) * 7;
             return cell % 3 == 0 ? 0.2 * ((i * 3 + j * 5 + k * 7) % 11) : 0.0;
@@ -110,7 +110,7 @@ TEST(GridMedium, FreeFlights)
     const double h = 0.05;
     for (const float scale : {1.0f, 30.0f, 1000.0f}) { // delta tracking, both, and closed form
         GridMediumOptions options;
-        options.scale = C3f(scale);
+        options.scale = Color(scale);
         const GridMedium medium = make_medium(make_grid(edge, h, V3d(-1), [](int i, int j, int k) { return ((i / 4 + j / 3 + k / 5) % 3) * 0.5; }), options);
         const Ray ray{{-1.2, -0.9, -0.8}, V3d(1.0, 0.7, 0.8).normalized(), 0, 4};
         constexpr int fine = 400000;
@@ -192,7 +192,7 @@ TEST(GridMedium, ExtremeDensities)
     const double h = 0.05;
     for (const double sigma : {1e-12, 1e-6, 1e3, 1e12}) {
         GridMediumOptions options;
-        options.scale = C3f(static_cast<float>(sigma));
+        options.scale = Color(static_cast<float>(sigma));
         const double s = double{options.scale.x};
         for (const bool even : {true, false}) {
             const GridMedium medium = make_medium(make_grid(24, h, V3d(0), [&](int i, int j, int k) { return even ? 1.0 : ((i + j + k) % 4) / 3.0; }), options);
@@ -229,7 +229,7 @@ TEST(GridMedium, ThinMediaScatterAsRarelyAsTheyShould)
 {
     // 4,000,000 walks at a depth of 8e-6: 32 events, standard error 5.7.
     GridMediumOptions options;
-    options.scale = C3f(1e-6f);
+    options.scale = Color(1e-6f);
     options.nearest = true;
     const GridMedium medium = make_medium(make_grid(8, 1.0, V3d(0), [](int, int, int) { return 1.0; }), options);
     int events = 0;
@@ -245,13 +245,13 @@ TEST(GridMedium, NothingInAnEmptyGrid)
 {
     for (const GridMedium& medium : {make_medium(FloatGrid::create(0)), make_medium(make_grid(10, 1, V3d(0), [](int, int, int) { return 0.0; })), [] {
              GridMediumOptions none;
-             none.scale = C3f(0);
+             none.scale = Color(0);
              return make_medium(make_grid(10, 1, V3d(0), [](int, int, int) { return 1.0; }), none);
          }()}) {
         Sampler sampler(1, 0, 0, 0);
         SpectralState state;
         EXPECT_FALSE(medium.event({-5, 5, 5}, {1, 0, 0}, 0, infinity, state, sampler).scattered);
-        EXPECT_EQ(medium.transmittance({-5, 5, 5}, {1, 0, 0}, 0, infinity, sampler), C3f(1));
+        EXPECT_EQ(medium.transmittance({-5, 5, 5}, {1, 0, 0}, 0, infinity, sampler), Color(1));
         EXPECT_EQ(medium.largest_sigma_t(), 0);
         EXPECT_TRUE(medium.is_achromatic());
     }
@@ -267,7 +267,7 @@ TEST(GridMedium, RaysThatAreNone)
         Sampler sampler(1, 0, 0, 0);
         SpectralState state;
         EXPECT_FALSE(medium.event({1, 1, 1}, bad, 0, infinity, state, sampler).scattered);
-        EXPECT_EQ(medium.transmittance({1, 1, 1}, bad, 0, infinity, sampler), C3f(1));
+        EXPECT_EQ(medium.transmittance({1, 1, 1}, bad, 0, infinity, sampler), Color(1));
     }
     Sampler sampler(1, 0, 0, 0);
     SpectralState state;

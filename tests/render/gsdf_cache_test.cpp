@@ -37,8 +37,8 @@ TEST_F(GsdfCache, OneComputationServesColourAbsorptionAndTint)
     EXPECT_TRUE(find(glass).computed);
     for (const float absorption : {0.0f, 0.1f, 30.0f}) {
         for (const float tint : {1.0f, 0.5f}) {
-            glass.absorption = C3f(absorption, 0, 1);
-            glass.tint = C3f(1, tint, 1);
+            glass.absorption = Color(absorption, 0, 1);
+            glass.tint = Color(1, tint, 1);
             EXPECT_FALSE(find(glass).computed);
         }
     }

@@ -119,7 +119,7 @@ void EveryGsdf::loses_nothing() const
     }
     Material white = lossless(GetParam().material);
     if (white.kind == MaterialKind::conductor) return;
-    for (uint32_t i = 0; i < gsdf_->data().records.size(); ++i) ASSERT_EQ(gsdf_->weight(i, white, 1), C3f(1));
+    for (uint32_t i = 0; i < gsdf_->data().records.size(); ++i) ASSERT_EQ(gsdf_->weight(i, white, 1), Color(1));
 }
 
 // What next-event estimation takes for the density is what sampling samples, cell by cell.
@@ -232,8 +232,8 @@ TEST(Gsdf, AbsorptionByLengthIsThatOfTheWay)
 {
     const auto gsdf = build_gsdf({nullptr, dielectric(1.5)}, {0.05});
     Material tea = dielectric(1.5);
-    tea.absorption = C3f(0.7f, 0, 2);
-    tea.tint = C3f(1, 0.9f, 1);
+    tea.absorption = Color(0.7f, 0, 2);
+    tea.tint = Color(1, 0.9f, 1);
     const double radius = 0.8;
     Estimate records[3], walked[3];
     for (uint32_t i = 0; i < 400000; ++i) {
@@ -241,7 +241,7 @@ TEST(Gsdf, AbsorptionByLengthIsThatOfTheWay)
         const double q = sampler.next();
         const uint32_t s = Gsdf::stratum(q, sampler.next());
         const uint32_t cell = gsdf->sample_cell(s, sampler.next());
-        const C3f weight = gsdf->weight(gsdf->pick(s, cell, sampler.next()), tea, radius);
+        const Color weight = gsdf->weight(gsdf->pick(s, cell, sampler.next()), tea, radius);
         const V3d d(0, 0, 1), entry(std::sqrt(q), 0, -std::sqrt(1 - q));
         const GrainExit exit = walk_grain({nullptr, dielectric(1.5)}, entry, d, sampler);
         for (int c = 0; c < 3; ++c) {

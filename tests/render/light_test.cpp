@@ -45,16 +45,16 @@ Light distant(double degrees)
 Light environment()
 {
     const size_t w = 32, h = 16;
-    std::vector<C3f> texels(w * h);
+    std::vector<Color> texels(w * h);
     for (size_t y = 0; y < h; ++y) {
         for (size_t x = 0; x < w; ++x) {
             const float v = (x * 7 + y * 3) % 11 == 0 ? 5.0f : 0.1f * static_cast<float>(y);
-            texels[y * w + x] = C3f(v, 0.5f * v, 0.2f);
+            texels[y * w + x] = Color(v, 0.5f * v, 0.2f);
         }
     }
     Light light;
     light.kind = LightKind::environment;
-    light.map = std::make_shared<EnvironmentMap>(texels, w, h, V3d(1, 2, 3), C3f(2));
+    light.map = std::make_shared<EnvironmentMap>(texels, w, h, V3d(1, 2, 3), Color(2));
     return light;
 }
 
@@ -161,22 +161,22 @@ TEST(Light, ManyAreChosenAsTheyAreWeighed)
 
 TEST(Environment, TopRowLooksUp)
 {
-    std::vector<C3f> texels(8 * 4, C3f(0));
-    for (size_t x = 0; x < 8; ++x) texels[x] = C3f(1);
+    std::vector<Color> texels(8 * 4, Color(0));
+    for (size_t x = 0; x < 8; ++x) texels[x] = Color(1);
     const V3d up = V3d(1, -2, 0.5).normalized();
-    const EnvironmentMap map(texels, 8, 4, up, C3f(3));
+    const EnvironmentMap map(texels, 8, 4, up, Color(3));
     EXPECT_FLOAT_EQ(map.radiance(up).x, 3);
     EXPECT_FLOAT_EQ(map.radiance(-up).x, 0);
 }
 
 TEST(Environment, MiddleLooksAlongX)
 {
-    std::vector<C3f> texels(64 * 32, C3f(0));
+    std::vector<Color> texels(64 * 32, Color(0));
     for (size_t y = 0; y < 32; ++y) {
-        for (size_t x = 28; x < 36; ++x) texels[y * 64 + x] = C3f(1);
-        for (size_t x = 12; x < 20; ++x) texels[y * 64 + x] = C3f(0, 1, 0);
+        for (size_t x = 28; x < 36; ++x) texels[y * 64 + x] = Color(1);
+        for (size_t x = 12; x < 20; ++x) texels[y * 64 + x] = Color(0, 1, 0);
     }
-    const EnvironmentMap map(texels, 64, 32, V3d(0, 0, 1), C3f(1));
+    const EnvironmentMap map(texels, 64, 32, V3d(0, 0, 1), Color(1));
     EXPECT_FLOAT_EQ(map.radiance({1, 0, 0}).x, 1);
     EXPECT_FLOAT_EQ(map.radiance({0, 1, 0}).y, 1);
     EXPECT_FLOAT_EQ(map.radiance({0, 1, 0}).x, 0);

@@ -109,7 +109,7 @@ PackingWalkOptions walk_options(const TileBed& bed, uint64_t scatterings)
 TEST(PackingWalk, OfFewGrainsIsThatOfIndependentFlights)
 {
     Material tea = dielectric(1.5);
-    tea.absorption = C3f(0, 0.05f, 0.2f);
+    tea.absorption = Color(0, 0.05f, 0.2f);
     for (const GrainType& type : {GrainType{"white", lambert(0.9f), nullptr, white()}, GrainType{"tea", tea, nullptr, glass()}, cubes()}) {
         const GrainShare share{type.gsdf.get(), nullptr, type.material, 1, 1};
         const MixtureMoments mixture = mixture_moments({&share, 1}, 0.02);
@@ -234,7 +234,7 @@ Measured fall_off(const TileBed& bed, double near, double far, uint32_t walks)
 TEST(PackingWalk, DecayIsThatOfLightFromAPlane)
 {
     Material smoky = dielectric(1.5);
-    smoky.absorption = C3f(0.05f);
+    smoky.absorption = Color(0.05f);
     struct Case {
         GrainType type;
         double near, far;
@@ -258,7 +258,7 @@ TEST(PackingWalk, DecayIsThatOfLightFromAPlane)
 TEST(PackingWalk, LosslessStaysLossless)
 {
     Material tea = dielectric(1.5);
-    tea.absorption = C3f(0, 0.05f, 0.2f);
+    tea.absorption = Color(0, 0.05f, 0.2f);
     const GrainType type{"tea", tea, nullptr, glass()};
     const GrainShare share{type.gsdf.get(), nullptr, type.material, 1, 1};
     const MixtureMoments mixture = mixture_moments({&share, 1}, 0.5);

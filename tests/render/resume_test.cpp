@@ -47,8 +47,8 @@ TEST(PictureResumed, AfterATimeoutIsTheSameAsInOneGo)
 void write_sky(const std::filesystem::path& path, double radiance)
 {
     Film film(8, 4, 0, 0, 8, 4);
-    for (Pixel& pixel : film.pixels()) pixel.add(C3f(0.2f), {});
-    film.at(3, 1).add(C3f(static_cast<float>(radiance)), {});
+    for (Pixel& pixel : film.pixels()) pixel.add(Color(0.2f), {});
+    film.at(3, 1).add(Color(static_cast<float>(radiance)), {});
     write_exr(path, film, {}, {});
 }
 

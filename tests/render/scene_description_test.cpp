@@ -77,26 +77,26 @@ TEST(SceneDescription, ReadsLights)
         {"kind": "rectangle", "corner": [1, 2, 3], "edges": [[1, 0, 0], [0, 2, 0]], "radiance": 10},
         {"kind": "sphere", "center": [3, 2, 1], "radius": 0.5}])").lights;
     ASSERT_EQ(lights.size(), 8u);
-    EXPECT_EQ(lights[0].radiance, C3f(1));
-    EXPECT_EQ(lights[1].radiance, C3f(1, 2, 3));
+    EXPECT_EQ(lights[0].radiance, Color(1));
+    EXPECT_EQ(lights[1].radiance, Color(1, 2, 3));
     EXPECT_EQ(lights[2].file, "/scenes/here/sky.exr");
-    EXPECT_EQ(lights[2].scale, C3f(1));
+    EXPECT_EQ(lights[2].scale, Color(1));
     EXPECT_EQ(lights[2].up, V3d(0, 0, 1));
     EXPECT_EQ(lights[3].file, "/abs/sky.exr");
-    EXPECT_EQ(lights[3].scale, C3f(2));
+    EXPECT_EQ(lights[3].scale, Color(2));
     EXPECT_EQ(lights[3].up, V3d(0, 1, 0));
     EXPECT_EQ(lights[4].direction, V3d(1, 2, -3));
-    EXPECT_EQ(lights[4].irradiance, C3f(1));
+    EXPECT_EQ(lights[4].irradiance, Color(1));
     EXPECT_EQ(lights[4].angle, 0.53);
-    EXPECT_EQ(lights[5].irradiance, C3f(3, 2, 1));
+    EXPECT_EQ(lights[5].irradiance, Color(3, 2, 1));
     EXPECT_EQ(lights[5].angle, 0);
     EXPECT_EQ(lights[6].corner, V3d(1, 2, 3));
     EXPECT_EQ(lights[6].edge1, V3d(1, 0, 0));
     EXPECT_EQ(lights[6].edge2, V3d(0, 2, 0));
-    EXPECT_EQ(lights[6].radiance, C3f(10));
+    EXPECT_EQ(lights[6].radiance, Color(10));
     EXPECT_EQ(lights[7].center, V3d(3, 2, 1));
     EXPECT_EQ(lights[7].radius, 0.5);
-    EXPECT_EQ(lights[7].radiance, C3f(1));
+    EXPECT_EQ(lights[7].radiance, Color(1));
     EXPECT_EQ(lights[7].place, "scene.json: /lights/7");
 }
 
@@ -112,24 +112,24 @@ TEST(SceneDescription, ReadsSurfacesAndMaterials)
     ASSERT_EQ(surfaces.size(), 7u);
     EXPECT_EQ(surfaces[0].mesh, "/scenes/here/a.obj");
     EXPECT_EQ(surfaces[0].material.kind, MaterialKind::lambert);
-    EXPECT_EQ(surfaces[0].material.reflectance, C3f(0.5f));
+    EXPECT_EQ(surfaces[0].material.reflectance, Color(0.5f));
     EXPECT_EQ(surfaces[1].mesh, "/scenes/here/../b.ply");
-    EXPECT_EQ(surfaces[1].material.reflectance, C3f(0.1f, 0.2f, 1));
+    EXPECT_EQ(surfaces[1].material.reflectance, Color(0.1f, 0.2f, 1));
     const Material& glass = surfaces[2].material;
     EXPECT_EQ(glass.kind, MaterialKind::dielectric);
     EXPECT_EQ(glass.ior, 1.5);
     EXPECT_EQ(glass.alpha, 0);
-    EXPECT_EQ(glass.absorption, C3f(0.0f));
-    EXPECT_EQ(glass.tint, C3f(1));
+    EXPECT_EQ(glass.absorption, Color(0.0f));
+    EXPECT_EQ(glass.tint, Color(1));
     EXPECT_EQ(surfaces[3].material.ior, 1.31);
     EXPECT_EQ(surfaces[3].material.alpha, 0.25) << "the GGX width is the square of the roughness";
-    EXPECT_EQ(surfaces[3].material.absorption, C3f(1, 2, 3)) << "per unit of length of the scene";
-    EXPECT_EQ(surfaces[3].material.tint, C3f(0.98f));
+    EXPECT_EQ(surfaces[3].material.absorption, Color(1, 2, 3)) << "per unit of length of the scene";
+    EXPECT_EQ(surfaces[3].material.tint, Color(0.98f));
     EXPECT_EQ(surfaces[4].material.kind, MaterialKind::conductor);
-    EXPECT_EQ(surfaces[4].material.eta, C3f(0.2f, 0.9f, 1.1f));
-    EXPECT_EQ(surfaces[4].material.k, C3f(3.9f));
+    EXPECT_EQ(surfaces[4].material.eta, Color(0.2f, 0.9f, 1.1f));
+    EXPECT_EQ(surfaces[4].material.k, Color(3.9f));
     EXPECT_EQ(surfaces[5].material.alpha, 1);
-    EXPECT_EQ(surfaces[5].material.tint, C3f(1, 0.5f, 0));
+    EXPECT_EQ(surfaces[5].material.tint, Color(1, 0.5f, 0));
     EXPECT_EQ(surfaces[6].material.alpha, 0) << "without a step in the index there is nothing to be rough";
 }
 
@@ -190,7 +190,7 @@ TEST(SceneDescription, LibraryShapesBringTheirMaterial)
     const GrainTypeDescription clay_sugar = read_type(R"({"shape": "brown_sugar", "material": {"kind": "lambert", "reflectance": 0.25}})");
     EXPECT_EQ(clay_sugar.library, &sugar);
     EXPECT_EQ(clay_sugar.material.kind, MaterialKind::lambert);
-    EXPECT_EQ(clay_sugar.material.reflectance, C3f(0.25f));
+    EXPECT_EQ(clay_sugar.material.reflectance, Color(0.25f));
     // Spheres are meshes only when triangles are asked for.
     EXPECT_FALSE(read_type(R"({"shape": "diffuse_sphere"})").has_mesh());
     EXPECT_TRUE(read_type(R"({"shape": {"library": "diffuse_sphere", "triangles": 80}})").has_mesh());
@@ -198,13 +198,13 @@ TEST(SceneDescription, LibraryShapesBringTheirMaterial)
 
 TEST(SceneDescription, UnitsConvertTheLibrarysAbsorptionOnly)
 {
-    const C3f per_metre = find_library_grain("brown_sugar")->material.absorption;
+    const Color per_metre = find_library_grain("brown_sugar")->material.absorption;
     ASSERT_GT(per_metre.x, 0);
     for (const auto& [unit, metres] : std::vector<std::pair<std::string, float>>{
              {"", 1e-3f}, {R"("unit": "mm", )", 1e-3f}, {R"("unit": "m", )", 1}, {R"("unit": "cm", )", 1e-2f}, {R"("unit": "um", )", 1e-6f}, {R"("unit": 0.5, )", 0.5f}}) {
-        const C3f found = read_type(R"({"shape": "brown_sugar"})", unit).material.absorption;
+        const Color found = read_type(R"({"shape": "brown_sugar"})", unit).material.absorption;
         for (int i = 0; i < 3; ++i) EXPECT_FLOAT_EQ(found[i], metres * per_metre[i]) << unit;
-        EXPECT_EQ(read_type(R"({"shape": "brown_sugar", "material": {"kind": "dielectric", "absorption": [1, 2, 3]}})", unit).material.absorption, C3f(1, 2, 3));
+        EXPECT_EQ(read_type(R"({"shape": "brown_sugar", "material": {"kind": "dielectric", "absorption": [1, 2, 3]}})", unit).material.absorption, Color(1, 2, 3));
     }
 }
 
@@ -239,12 +239,12 @@ TEST(SceneDescription, ReadsMedia)
         {"vdb": "cloud.vdb", "density": "rho", "scale": 10, "albedo": "colour", "g": 0.85, "interpolation": "nearest"}], "integrator": {"kind": "vpt", "grain_depth": 4, "medium_form": "walk"})");
     ASSERT_EQ(scene.media.size(), 2u);
     EXPECT_EQ(scene.media[0].mesh.filename(), "slab.off");
-    EXPECT_EQ(scene.media[0].sigma_t, C3f(1, 2, 3));
-    EXPECT_EQ(scene.media[0].albedo, C3f(0.9f));
+    EXPECT_EQ(scene.media[0].sigma_t, Color(1, 2, 3));
+    EXPECT_EQ(scene.media[0].albedo, Color(0.9f));
     EXPECT_EQ(scene.media[0].g, -0.5);
     EXPECT_EQ(scene.media[1].vdb.filename(), "cloud.vdb");
     EXPECT_EQ(scene.media[1].density, "rho");
-    EXPECT_EQ(scene.media[1].sigma_t, C3f(10));
+    EXPECT_EQ(scene.media[1].sigma_t, Color(10));
     EXPECT_EQ(scene.media[1].albedo_grid, "colour");
     EXPECT_EQ(scene.media[1].g, 0.85);
     EXPECT_TRUE(scene.media[1].nearest);

@@ -32,7 +32,7 @@ Film noise(uint64_t seed, double brighter)
             for (uint32_t s = 0; s < 64; ++s) {
                 Sampler sampler(seed, static_cast<uint32_t>(x), static_cast<uint32_t>(y), s);
                 const auto value = static_cast<float>((x < 12 ? 1 : 1 + brighter) * 2 * sampler.next());
-                film.at(x, y).add(C3f(value), {});
+                film.at(x, y).add(Color(value), {});
             }
         }
     }

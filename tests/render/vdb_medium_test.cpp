@@ -53,14 +53,14 @@ TEST_F(VdbMedium, ReadsWhatWasWritten)
 {
     const auto path = write({block("density", 2.0f), block<openvdb::Vec3SGrid>("colour", openvdb::Vec3s(0.9f, 0.8f, 0.7f)), block("lobe", 0.6f)});
     VdbMediumOptions options = with("colour", "lobe");
-    options.medium.scale = C3f(3);
+    options.medium.scale = Color(3);
     RenderSpace space;
     space.origin = V3d(1);
     space.exponent = 1;
     const GridMedium medium = read_vdb_medium(path, options, space, {});
     const V3d middle = space.point(V3d(2.2));
     EXPECT_FLOAT_EQ(medium.sigma_t(middle).x, 12); // 2 * 3 per unit, and two units in a render unit
-    EXPECT_EQ(medium.albedo(middle), C3f(0.9f, 0.8f, 0.7f));
+    EXPECT_EQ(medium.albedo(middle), Color(0.9f, 0.8f, 0.7f));
     EXPECT_FLOAT_EQ(static_cast<float>(medium.g(middle)), 0.6f);
     EXPECT_TRUE(medium.is_achromatic());
     // Interpolation reaches a voxel farther: -0.5 to 5.
@@ -133,10 +133,10 @@ TEST_F(VdbMedium, RefusesWhatNoMediumHas)
         {{density, block<openvdb::Vec3SGrid>("lobe", openvdb::Vec3s(0.1f))}, with("", "lobe"), "g as a grid of vec3s", "float or double"},
     };
     VdbMediumOptions options;
-    options.medium.scale = C3f(1, -1, 1);
+    options.medium.scale = Color(1, -1, 1);
     cases.push_back({{density}, options, "a scale of -1", "0 or more"});
     options = {};
-    options.medium.albedo = C3f(1.01f);
+    options.medium.albedo = Color(1.01f);
     cases.push_back({{density}, options, "an albedo of 1.01", "0..1"});
     options = {};
     options.medium.g = -1;

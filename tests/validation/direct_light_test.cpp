@@ -15,11 +15,11 @@ void add_lights(TestScene& scene)
     scene.add_light(rectangle_light(V3d(-2, -2, 5), V3d(4, 0, 0), V3d(0, 4, 0.5), 2));
     scene.add_light(sphere_light(V3d(3, -1, 2), 0.7, 6));
     scene.add_light(distant_light(V3d(-1, -1, 1), 1 - std::cos(12 * pi / 180), 5));
-    std::vector<C3f> texels(32 * 16);
-    for (size_t i = 0; i < texels.size(); ++i) texels[i] = C3f(i % 37 == 0 ? 4.0f : 0.2f);
+    std::vector<Color> texels(32 * 16);
+    for (size_t i = 0; i < texels.size(); ++i) texels[i] = Color(i % 37 == 0 ? 4.0f : 0.2f);
     Light sky;
     sky.kind = LightKind::environment;
-    sky.map = std::make_shared<EnvironmentMap>(texels, 32, 16, V3d(0, 0, 1), C3f(1));
+    sky.map = std::make_shared<EnvironmentMap>(texels, 32, 16, V3d(0, 0, 1), Color(1));
     scene.add_light(sky);
 }
 
@@ -29,8 +29,8 @@ TEST(DirectLight, EveryStrategyGivesTheSamePicture)
     TestScene scene;
     Material metal;
     metal.kind = MaterialKind::conductor;
-    metal.eta = C3f(1.5f);
-    metal.k = C3f(3);
+    metal.eta = Color(1.5f);
+    metal.k = Color(3);
     metal.alpha = 0.2;
     const uint32_t types[] = {scene.add_type(lambert(0.7f)), scene.add_type(dielectric(1.5, 0.3)), scene.add_type(metal),
                               scene.add_type(dielectric(1.5)), scene.add_type(lambert(0.5f), cube())};

@@ -106,7 +106,7 @@ Light white_environment()
 {
     Light light;
     light.kind = LightKind::environment;
-    light.map = std::make_shared<EnvironmentMap>(std::vector<C3f>(16 * 8, C3f(1)), 16, 8, V3d(0, 0, 1), C3f(1));
+    light.map = std::make_shared<EnvironmentMap>(std::vector<Color>(16 * 8, Color(1)), 16, 8, V3d(0, 0, 1), Color(1));
     return light;
 }
 

@@ -20,8 +20,8 @@ namespace {
 std::shared_ptr<const Gsdf> gsdf_of(const Material& material)
 {
     Material lossless = material;
-    lossless.absorption = C3f(0);
-    if (material.kind == MaterialKind::lambert) lossless.reflectance = C3f(1);
+    lossless.absorption = Color(0);
+    if (material.kind == MaterialKind::lambert) lossless.reflectance = Color(1);
     return build_gsdf({nullptr, lossless}, {0.05});
 }
 
@@ -29,7 +29,7 @@ TEST(PackingSample, SharesKeepSumsOfPowersOfTheRadius)
 {
     TestScene scene;
     Material tea = dielectric(1.5);
-    tea.absorption = C3f(0.1f, 0.3f, 1);
+    tea.absorption = Color(0.1f, 0.3f, 1);
     scene.set_gsdf(scene.add_type(tea), gsdf_of(tea));
     scene.set_gsdf(scene.add_type(lambert(0.8f)), gsdf_of(lambert(0.8f)));
     PackingSample sample;

@@ -75,9 +75,9 @@ Light bright_top()
 {
     Light sky;
     sky.kind = LightKind::environment;
-    std::vector<C3f> texels(16 * 8, C3f(0.2f));
-    for (size_t i = 0; i < 32; ++i) texels[i] = C3f(2);
-    sky.map = std::make_shared<EnvironmentMap>(texels, 16, 8, V3d(0, 0, 1), C3f(1));
+    std::vector<Color> texels(16 * 8, Color(0.2f));
+    for (size_t i = 0; i < 32; ++i) texels[i] = Color(2);
+    sky.map = std::make_shared<EnvironmentMap>(texels, 16, 8, V3d(0, 0, 1), Color(1));
     return sky;
 }
 
@@ -87,7 +87,7 @@ Light sun()
     light.kind = LightKind::distant;
     light.direction = V3d(0.3, -0.2, 1).normalized();
     light.one_minus_cos = 0.02;
-    light.radiance = C3f(8);
+    light.radiance = Color(8);
     return light;
 }
 

@@ -25,7 +25,7 @@ constexpr uint32_t paths = 400000;
 
 TEST(HalfSpace, ReflectsWhatTheoryKnows)
 {
-    const auto shallow = slab(150, V3d(1), C3f(0.9f), 0), deep = slab(500, V3d(1), C3f(0.99f), 0);
+    const auto shallow = slab(150, V3d(1), Color(0.9f), 0), deep = slab(500, V3d(1), Color(0.99f), 0);
     expect_truth(shine(*shallow, 4 * paths, 1, 1).up[0], 0.41495, "half-space 0.9, normal");
     expect_truth(shine(*shallow, paths, -1, 2).up[0], 0.47802, "half-space 0.9, diffuse");
     expect_truth(shine(*deep, paths / 4, 1, 3).up[0], 0.75272, "half-space 0.99, normal");
@@ -34,22 +34,22 @@ TEST(HalfSpace, ReflectsWhatTheoryKnows)
 
 TEST(Slab, ReflectsAndPassesWhatTheoryKnows)
 {
-    const ReflectedAndPassed thin = shine(*slab(2, V3d(1), C3f(0.9f), 0.75), 10 * paths, 1, 5);
+    const ReflectedAndPassed thin = shine(*slab(2, V3d(1), Color(0.9f), 0.75), 10 * paths, 1, 5);
     expect_truth(thin.up[0], 0.09739, "slab g 0.75, albedo 0.9, tau 2: R");
     expect_truth(thin.down[0], 0.66096, "slab g 0.75, albedo 0.9, tau 2: T");
-    const ReflectedAndPassed thick = shine(*slab(10, V3d(1), C3f(1), 0), 2 * paths, 1, 6);
+    const ReflectedAndPassed thick = shine(*slab(10, V3d(1), Color(1), 0), 2 * paths, 1, 6);
     expect_truth(thick.up[0], 0.85300, "slab g 0, albedo 1, tau 10: R");
     expect_truth(thick.down[0], 0.14700, "slab g 0, albedo 1, tau 10: T");
 }
 
 TEST(Slab, DoesNotKnowTheUnitOfLength)
 {
-    const ReflectedAndPassed one = shine(*slab(2, V3d(1), C3f(0.9f), 0.75), 2000, 0.8, 7);
+    const ReflectedAndPassed one = shine(*slab(2, V3d(1), Color(0.9f), 0.75), 2000, 0.8, 7);
     const double scale = std::ldexp(1.0, 20);
-    const ReflectedAndPassed large = shine(*slab(2 * scale, V3d(1 / scale), C3f(0.9f), 0.75), 2000, 0.8, 7);
+    const ReflectedAndPassed large = shine(*slab(2 * scale, V3d(1 / scale), Color(0.9f), 0.75), 2000, 0.8, 7);
     EXPECT_EQ(one.up[0].mean(), large.up[0].mean());
     EXPECT_EQ(one.down[0].mean(), large.down[0].mean());
-    for (const double unit : {1e-6, 1e6}) expect_truth(shine(*slab(2 * unit, V3d(1 / unit), C3f(0.9f), 0.75), paths, 1, 8).down[0], 0.66096, "slab in another unit: T");
+    for (const double unit : {1e-6, 1e6}) expect_truth(shine(*slab(2 * unit, V3d(1 / unit), Color(0.9f), 0.75), paths, 1, 8).down[0], 0.66096, "slab in another unit: T");
 }
 
 TEST(Slab, IsTheSameAsAGrid)
@@ -70,10 +70,10 @@ TEST(Slab, IsTheSumOfTwoThatTouch)
         TestScene scene;
         const double wide = 6e3;
         if (grey) {
-            scene.add_medium(box_mesh({-wide, -wide, -2}, {wide, wide, -1}), V3d(1), C3f(0.9f), 0.75);
-            scene.add_medium(box_mesh({-wide, -wide, -1}, {wide, wide, 0}), V3d(1), C3f(0.9f), 0.75);
+            scene.add_medium(box_mesh({-wide, -wide, -2}, {wide, wide, -1}), V3d(1), Color(0.9f), 0.75);
+            scene.add_medium(box_mesh({-wide, -wide, -1}, {wide, wide, 0}), V3d(1), Color(0.9f), 0.75);
         } else {
-            for (const double sigma_t : {0.25, 0.75}) scene.add_medium(box_mesh({-wide, -wide, -2}, {wide, wide, 0}), V3d(sigma_t), C3f(0.9f), 0.75);
+            for (const double sigma_t : {0.25, 0.75}) scene.add_medium(box_mesh({-wide, -wide, -2}, {wide, wide, 0}), V3d(sigma_t), Color(0.9f), 0.75);
         }
         scene.add_constant_light(1);
         scene.build();
@@ -86,9 +86,9 @@ TEST(Slab, IsTheSumOfTwoThatTouch)
 TEST(Slab, ChannelsThatSeeItDifferentlyAreEachRight)
 {
     // tau 2, 10 and 0.1; single channels are known from the above or by a walk of their own.
-    const ReflectedAndPassed all = shine(*slab(1, V3d(2, 10, 0.1), C3f(0.9f, 1, 0.9f), 0), paths, 1, 9);
+    const ReflectedAndPassed all = shine(*slab(1, V3d(2, 10, 0.1), Color(0.9f, 1, 0.9f), 0), paths, 1, 9);
     for (int c = 0; c < 3; ++c) {
-        const ReflectedAndPassed own = shine(*slab(1, V3d(c == 0 ? 2 : c == 1 ? 10 : 0.1), C3f(c == 1 ? 1 : 0.9f), 0), paths, 1, 10);
+        const ReflectedAndPassed own = shine(*slab(1, V3d(c == 0 ? 2 : c == 1 ? 10 : 0.1), Color(c == 1 ? 1 : 0.9f), 0), paths, 1, 10);
         for (const bool up : {false, true}) {
             const Estimate &a = up ? all.up[c] : all.down[c], &b = up ? own.up[0] : own.down[0];
             EXPECT_LT(std::abs(a.mean() - b.mean()), 4 * std::hypot(a.standard_error(), b.standard_error())) << c << " " << up << ": " << a.mean() << " " << b.mean();
@@ -101,7 +101,7 @@ TEST(Slab, EndsWhateverItsDensity)
     for (const double g : {-0.99, 0.0, 0.99}) {
         for (const double sigma_t : {0.0, 1e-12, 1e-3, 1.0, 1e3, 1e12}) {
             for (const float albedo : {0.999f, 1.0f}) {
-                const ReflectedAndPassed sum = shine(*slab(1, V3d(sigma_t), C3f(albedo), g), 300, 0.5, 11);
+                const ReflectedAndPassed sum = shine(*slab(1, V3d(sigma_t), Color(albedo), g), 300, 0.5, 11);
                 const double all = sum.up[0].mean() + sum.down[0].mean();
                 EXPECT_TRUE(std::isfinite(all) && all > 0 && all <= 1 + 1e-6) << g << " " << sigma_t << " " << all;
                 if (albedo == 1) {
@@ -122,7 +122,7 @@ TEST(Slab, EndsWhateverItsDensity)
 TEST(MediumFurnace, IsWhiteAfterAHundredThousandScatterings)
 {
     TestScene scene; // optical radius 500, seen from its middle: about 500^2 (1 - g) / 2 scatterings
-    scene.add_medium(icosphere(3), V3d(500), C3f(1), 0.3);
+    scene.add_medium(icosphere(3), V3d(500), Color(1), 0.3);
     scene.add_constant_light(1);
     scene.build();
     Estimate events;
@@ -167,10 +167,10 @@ void add_everything(TestScene& scene)
     scene.add_grain({0.6, 0.75, 0.1}, 0.3, white); // through the medium's surface
     TriangleMesh pane = box_mesh({-0.9, -0.9, -0.6}, {0.4, 0.5, -0.5});
     scene.add_surface(pane, dielectric(1.33));
-    scene.add_medium(cube(), V3d(3), C3f(1), 0.6);
+    scene.add_medium(cube(), V3d(3), Color(1), 0.6);
     TriangleMesh ball = icosphere(2);
     for (V3d& p : ball.positions) p = 0.7 * p + V3d(0.5, 0.2, -0.4);
-    scene.add_medium(ball, V3d(5), C3f(1), -0.3);
+    scene.add_medium(ball, V3d(5), Color(1), -0.3);
 }
 
 TEST(MediumFurnace, IsWhiteWithGrainsAndSurfacesAndMediaInEachOther) { expect_white(add_everything, "all in each other"); }
@@ -179,8 +179,8 @@ TEST(MediumFurnace, IsWhiteWhereFacesCoincide)
 {
     // On a white floor, under a glass box of the same size, and against another medium.
     expect_white([](TestScene& scene) {
-        scene.add_medium(box_mesh({-1, -1, 0}, {0, 1, 1}), V3d(4), C3f(1), 0.5);
-        scene.add_medium(box_mesh({0, -1, 0}, {1, 1, 1}), V3d(9), C3f(1), -0.2);
+        scene.add_medium(box_mesh({-1, -1, 0}, {0, 1, 1}), V3d(4), Color(1), 0.5);
+        scene.add_medium(box_mesh({0, -1, 0}, {1, 1, 1}), V3d(9), Color(1), -0.2);
         scene.add_surface(ground(3, 0), lambert(1));
         scene.add_surface(box_mesh({0, -1, 0}, {1, 1, 1}), dielectric(1.3));
     }, "faces coincide");
@@ -189,7 +189,7 @@ TEST(MediumFurnace, IsWhiteWhereFacesCoincide)
 TEST(MediumLight, StrategiesAgree)
 {
     TestScene scene;
-    scene.add_medium(cube(), V3d(2, 3, 5), C3f(0.9f, 0.95f, 1), 0.5);
+    scene.add_medium(cube(), V3d(2, 3, 5), Color(0.9f, 0.95f, 1), 0.5);
     scene.add_light(rectangle_light(V3d(-1, -1, 2), V3d(2, 0, 0), V3d(0, 2, 0)));
     scene.add_light(sphere_light(V3d(0.3, 0.2, 0.1), 0.2, 2));
     scene.build();

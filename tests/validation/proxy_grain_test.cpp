@@ -25,7 +25,7 @@ Light sun(const V3d& towards, double degrees)
     light.kind = LightKind::distant;
     light.direction = towards;
     light.one_minus_cos = 2 * std::pow(std::sin(degrees * pi / 720), 2); // of half the angular diameter
-    light.radiance = C3f(static_cast<float>(1 / (pi * light.one_minus_cos * (2 - light.one_minus_cos)))); // irradiance 1
+    light.radiance = Color(static_cast<float>(1 / (pi * light.one_minus_cos * (2 - light.one_minus_cos)))); // irradiance 1
     return light;
 }
 

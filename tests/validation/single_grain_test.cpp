@@ -77,7 +77,7 @@ TEST(SingleGrain, FineMeshScattersLikeTheSphere)
 TEST(SingleGrain, BothInterfacesCount)
 {
     Material tinted = dielectric(1);
-    tinted.tint = C3f(0.98f);
+    tinted.tint = Color(0.98f);
     const Beam sphere = shine(*one_grain(tinted), 1000);
     EXPECT_NEAR(sphere.radiance.mean(), 0.9604, 1e-6);
     EXPECT_NEAR(sphere.cosine.mean(), 1, 1e-12);
@@ -100,7 +100,7 @@ TEST(SingleGrain, AbsorbsByItsSize)
     for (const double r : {0.5, 3.0}) {
         const double sigma = 0.7, s = sigma * r;
         Material tea = dielectric(1);
-        tea.absorption = C3f(static_cast<float>(sigma));
+        tea.absorption = Color(static_cast<float>(sigma));
         TestScene scene;
         scene.add_grain(V3d(0), r, scene.add_type(tea));
         scene.add_constant_light(1);
@@ -116,7 +116,7 @@ TEST(SingleGrain, AbsorbsByItsSize)
 TEST(SingleGrain, SurroundingSurfaceAbsorbsOnTheWayInAndOut)
 {
     Material tea = dielectric(1);
-    tea.absorption = C3f(0.5f);
+    tea.absorption = Color(0.5f);
     TestScene scene;
     scene.add_grain(V3d(0), 0.5, scene.add_type(dielectric(1)));
     scene.add_surface(cube(), tea);

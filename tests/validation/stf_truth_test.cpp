@@ -28,7 +28,7 @@ constexpr uint32_t paths = 200'000;
 
 TEST(ShellTracing, HalfSpacesReflectWhatTheoryKnows)
 {
-    const auto shallow = slab(150, V3d(1), C3f(0.9f), 0, StfForm::full), deep = slab(500, V3d(1), C3f(0.99f), 0, StfForm::full);
+    const auto shallow = slab(150, V3d(1), Color(0.9f), 0, StfForm::full), deep = slab(500, V3d(1), Color(0.99f), 0, StfForm::full);
     expect_truth(shine(*shallow, paths, 1, 1).up[0], 0.41495, "half-space 0.9, normal");
     expect_truth(shine(*shallow, paths, -1, 2).up[0], 0.47802, "half-space 0.9, diffuse");
     expect_truth(shine(*deep, paths, 1, 3).up[0], 0.75272, "half-space 0.99, normal");
@@ -37,10 +37,10 @@ TEST(ShellTracing, HalfSpacesReflectWhatTheoryKnows)
 
 TEST(ShellTracing, SlabsReflectAndPassWhatTheoryKnows)
 {
-    const ReflectedAndPassed thin = shine(*slab(2, V3d(1), C3f(0.9f), 0.75, StfForm::full), 4 * paths, 1, 5);
+    const ReflectedAndPassed thin = shine(*slab(2, V3d(1), Color(0.9f), 0.75, StfForm::full), 4 * paths, 1, 5);
     expect_truth(thin.up[0], 0.09739, "slab g 0.75, albedo 0.9, tau 2: R");
     expect_truth(thin.down[0], 0.66096, "slab g 0.75, albedo 0.9, tau 2: T");
-    const ReflectedAndPassed thick = shine(*slab(10, V3d(1), C3f(1), 0, StfForm::full), 2 * paths, 1, 6);
+    const ReflectedAndPassed thick = shine(*slab(10, V3d(1), Color(1), 0, StfForm::full), 2 * paths, 1, 6);
     expect_truth(thick.up[0], 0.85300, "slab g 0, albedo 1, tau 10: R");
     expect_truth(thick.down[0], 0.14700, "slab g 0, albedo 1, tau 10: T");
     const GridSlab grid(10, 1, 1, 0, 1, StfForm::full);
@@ -51,7 +51,7 @@ TEST(ShellTracing, SlabsReflectAndPassWhatTheoryKnows)
 TEST(ShellTracing, ThickSlabsAreAsWithoutShells)
 {
     for (const double g : {0.0, 0.8}) {
-        const C3f albedo(0.9f, 0.99f, 1);
+        const Color albedo(0.9f, 0.99f, 1);
         const ReflectedAndPassed shells = shine(*slab(60, V3d(1), albedo, g, StfForm::full), paths, 1, 8), events = shine(*slab(60, V3d(1), albedo, g), paths / 8, 1, 9);
         for (int c = 0; c < 3; ++c) {
             expect_equal(shells.up[c], events.up[c], systematic, "R");
@@ -65,8 +65,8 @@ TEST(ShellTracing, ThickSlabsAreAsWithoutShells)
 TEST(ShellTracing, DoesNotKnowTheUnitOfLength)
 {
     const double scale = 0x1p20;
-    const ReflectedAndPassed one = shine(*slab(20, V3d(1), C3f(0.99f), 0.5, StfForm::full), 3000, 0.8, 7);
-    const ReflectedAndPassed large = shine(*slab(20 * scale, V3d(1 / scale), C3f(0.99f), 0.5, StfForm::full), 3000, 0.8, 7);
+    const ReflectedAndPassed one = shine(*slab(20, V3d(1), Color(0.99f), 0.5, StfForm::full), 3000, 0.8, 7);
+    const ReflectedAndPassed large = shine(*slab(20 * scale, V3d(1 / scale), Color(0.99f), 0.5, StfForm::full), 3000, 0.8, 7);
     EXPECT_EQ(one.up[0].mean(), large.up[0].mean());
     EXPECT_EQ(one.down[0].mean(), large.down[0].mean());
 }
@@ -76,11 +76,11 @@ TEST(ShellTracing, IsWhiteInAFurnaceInEveryForm)
     for (const StfForm form : {StfForm::full, StfForm::cosine, StfForm::hg, StfForm::interpolated, StfForm::diffusion}) {
         TestScene constant, sampled;
         for (TestScene* scene : {&constant, &sampled}) {
-            scene->add_medium(cube(), V3d(25), C3f(1), 0.6);
+            scene->add_medium(cube(), V3d(25), Color(1), 0.6);
             scene->add_surface(box_mesh({-0.9, -0.9, -0.6}, {0.4, 0.5, -0.5}), dielectric(1.33));
             TriangleMesh ball = icosphere(2);
             for (V3d& p : ball.positions) p = 0.7 * p + V3d(0.5, 0.2, -0.4);
-            scene->add_medium(ball, V3d(12), C3f(1), -0.3); // through the cube's faces: where both are, light goes from event to event
+            scene->add_medium(ball, V3d(12), Color(1), -0.3); // through the cube's faces: where both are, light goes from event to event
             scene->use_shells(form);
         }
         constant.add_constant_light(1);
@@ -106,7 +106,7 @@ TEST(ShellTracing, FindsLightByEveryStrategyAsVolumetricPathTracingDoes)
     std::vector<Estimate> found;
     for (const bool shells : {false, true}) {
         TestScene scene;
-        scene.add_medium(icosphere(3), V3d(30), C3f(0.99f, 0.999f, 1), 0.5);
+        scene.add_medium(icosphere(3), V3d(30), Color(0.99f, 0.999f, 1), 0.5);
         scene.add_light(rectangle_light(V3d(-0.5, -0.5, 1.5), V3d(1, 0, 0), V3d(0, 1, 0), 5));
         scene.add_light(distant_light(V3d(-1, 0.3, -0.2), 0.02, 2));
         if (shells) scene.use_shells();
@@ -134,7 +134,7 @@ TEST(ShellTracing, WeighsLightByThePhaseFunctionThatRecordsAreDrawnFrom)
     const auto table = std::make_shared<const PhaseTable>(bins);
     for (const StfForm form : {StfForm::full, StfForm::cosine, StfForm::hg, StfForm::interpolated}) {
         TestScene scene;
-        scene.add_medium(icosphere(3), V3d(2.5), C3f(0.5f), table);
+        scene.add_medium(icosphere(3), V3d(2.5), Color(0.5f), table);
         scene.add_light(distant_light(V3d(0, 0, 1), 0.1, 10));
         scene.use_shells(form);
         scene.build();
@@ -158,10 +158,10 @@ TEST(ShellTracing, EndsWhateverTheDensity)
 {
     for (const double g : {-0.99, 0.0, 0.99}) {
         for (const double sigma_t : {1e-12, 1.0, 1e3, 1e4}) {
-            const ReflectedAndPassed sum = shine(*slab(1, V3d(sigma_t), C3f(1), g, StfForm::full), 200, 0.5, 11);
+            const ReflectedAndPassed sum = shine(*slab(1, V3d(sigma_t), Color(1), g, StfForm::full), 200, 0.5, 11);
             EXPECT_NEAR(sum.up[0].mean() + sum.down[0].mean(), 1, 1e-5) << g << " " << sigma_t;
         }
-        const ReflectedAndPassed dense = shine(*slab(1, V3d(1e12), C3f(0.999f), g, StfForm::full), 200, 0.5, 11);
+        const ReflectedAndPassed dense = shine(*slab(1, V3d(1e12), Color(0.999f), g, StfForm::full), 200, 0.5, 11);
         EXPECT_TRUE(dense.up[0].mean() > 0.1 && dense.up[0].mean() <= 1) << g;
         EXPECT_EQ(dense.down[0].mean(), 0);
     }

@@ -20,15 +20,15 @@ std::unique_ptr<TestScene> sparse_layer(bool fog)
     auto scene = std::make_unique<TestScene>();
     Material white;
     white.kind = MaterialKind::lambert;
-    white.reflectance = C3f(0.9f);
+    white.reflectance = Color(0.9f);
     const uint32_t type = scene->add_type(white, box_mesh(V3d(-0.57), V3d(0.57)));
     for (int i = 0; i < edge * edge; ++i) scene->add_grain({3.0 * (i % edge - 0.5 * (edge - 1)), 3.0 * (i / edge - 0.5 * (edge - 1)), 0}, 1, type);
-    if (fog) scene->add_medium(box_mesh(V3d(-40, -40, -6), V3d(40, 40, 6)), V3d(0.08), C3f(0), 0);
+    if (fog) scene->add_medium(box_mesh(V3d(-40, -40, -6), V3d(40, 40, 6)), V3d(0.08), Color(0), 0);
     Light sun;
     sun.kind = LightKind::distant;
     sun.direction = V3d(0, 0, 1);
     sun.one_minus_cos = 1e-3;
-    sun.radiance = C3f(100);
+    sun.radiance = Color(100);
     scene->add_light(sun);
     GsdfOptions options;
     options.error = 0.03;

@@ -19,7 +19,7 @@ StressFinding sampled_furnace(StressScene scene, const StressView& view, const P
         LightDescription half;
         half.kind = LightDescription::Kind::distant;
         half.direction = V3d(0.1, 0.2, 1) * z;
-        half.irradiance = C3f(static_cast<float>(pi));
+        half.irradiance = Color(static_cast<float>(pi));
         half.angle = 180;
         scene.description.lights.push_back(half);
     }
@@ -32,7 +32,7 @@ StressFinding sampled_furnace(StressScene scene, const StressView& view, const P
 StressFinding furnace(StressScene scene, const StressView& view, double allowed, const Progress& progress)
 {
     scene.description.lights.clear();
-    add_constant(scene, C3f(1));
+    add_constant(scene, Color(1));
     const StressPicture picture = StressStage(scene, {}, view, progress).render(view, progress);
     StressFinding finding = compare_exactly(picture.film, 1, allowed);
     finding.count(picture.statistics);
@@ -48,8 +48,8 @@ struct Kind {
 
 const std::vector<Kind>& kinds()
 {
-    static const std::vector<Kind> all{{"white spheres", lambert_material(C3f(1)), ""},        {"glass spheres", glass_material(1.5), ""},
-                                       {"rough glass spheres", glass_material(1.5, 0.5), ""},  {"white cubes", lambert_material(C3f(1)), "cube.obj"},
+    static const std::vector<Kind> all{{"white spheres", lambert_material(Color(1)), ""},        {"glass spheres", glass_material(1.5), ""},
+                                       {"rough glass spheres", glass_material(1.5, 0.5), ""},  {"white cubes", lambert_material(Color(1)), "cube.obj"},
                                        {"glass cubes", glass_material(1.5), "cube.obj"},       {"rough glass cubes", glass_material(1.5, 0.5), "cube.obj"}};
     return all;
 }

@@ -16,8 +16,8 @@ StressScene cube_of_medium(double optical_radius, double albedo, double g)
 {
     StressScene scene = scene_from_above(8, 0.125, 3);
     scene.meshes["cube.obj"] = cube_mesh(1);
-    add_medium(scene, "cube.obj", optical_radius, C3f(static_cast<float>(albedo)), g);
-    add_constant(scene, C3f(1));
+    add_medium(scene, "cube.obj", optical_radius, Color(static_cast<float>(albedo)), g);
+    add_constant(scene, Color(1));
     return scene;
 }
 
@@ -26,7 +26,7 @@ StressScene ball_of_medium(double optical_radius, double albedo, double g)
 {
     StressScene scene = empty_scene(24, 18, V3d(-3, -3.5, 2.5), V3d(0), 35);
     scene.meshes["ball.obj"] = ball_mesh(1, 2);
-    add_medium(scene, "ball.obj", optical_radius, C3f(static_cast<float>(albedo)), g);
+    add_medium(scene, "ball.obj", optical_radius, Color(static_cast<float>(albedo)), g);
     add_day(scene);
     return scene;
 }
@@ -150,7 +150,7 @@ void add_medium_cases(StressRun& run)
             other.seed = 2;
             return two_ways(cube, stepwise, other, 0.01, run.progress());
         });
-        for (const C3f& sigma : {C3f(16, 4, 1), C3f(1e3f, 1, 1e-3f)}) {
+        for (const Color& sigma : {Color(16, 4, 1), Color(1e3f, 1, 1e-3f)}) {
             run.add(fmt::format("sigma_t {:g}, {:g}, {:g}, lossless, {}", sigma.x, sigma.y, sigma.z, name_of(kind)), sigma.x < 100 ? StressExtent::quick : StressExtent::full, [&] {
                 StressScene cube = cube_of_medium(1, 1, 0);
                 cube.description.media[0].sigma_t = sigma;

@@ -14,7 +14,7 @@ constexpr IntegratorKind all_kinds[] = {IntegratorKind::ept, IntegratorKind::ppt
 /// Every pixel with 1, in a surrounding of 1.
 StressFinding white(StressScene scene, const StressView& view, double allowed, const Progress& progress)
 {
-    add_constant(scene, C3f(1));
+    add_constant(scene, Color(1));
     const StressPicture picture = StressStage(scene, {}, view, progress).render(view, progress);
     StressFinding finding = compare_exactly(picture.film, 1, allowed);
     finding.count(picture.statistics);
@@ -66,8 +66,8 @@ void add_packing_cases(StressRun& run)
         run.add("one grain, " + name_of(kind), extent, [&] { return white(few_grains(glass_material(1.5), 1), view, 1e-5, run.progress()); });
         run.add("2,916 touching spheres of glass, f 0.74, " + name_of(kind), extent, [&] { return white(fcc(glass_material(1.5), 9), view, 1e-5, run.progress()); });
         run.add("grains in each other, glass, " + name_of(kind), extent, [&] { return white(odd_grains(glass_material(1.5)), view, 1e-5, run.progress()); });
-        run.add("grains in each other, white, " + name_of(kind), extent, [&] { return white(odd_grains(lambert_material(C3f(1))), view, 1e-5, run.progress()); });
-        run.add("2,916 touching white spheres, f 0.74, " + name_of(kind), extent, [&] { return white(fcc(lambert_material(C3f(1)), 9), view, 1e-5, run.progress()); });
+        run.add("grains in each other, white, " + name_of(kind), extent, [&] { return white(odd_grains(lambert_material(Color(1))), view, 1e-5, run.progress()); });
+        run.add("2,916 touching white spheres, f 0.74, " + name_of(kind), extent, [&] { return white(fcc(lambert_material(Color(1)), 9), view, 1e-5, run.progress()); });
     }
 }
 
@@ -85,7 +85,7 @@ void add_long_path_cases(StressRun& run)
         run.add("the middle of a cube of optical radius 1000, " + name_of(kind), StressExtent::full, [&] {
             StressScene scene = from_within(empty_scene(1, 1, V3d(0), V3d(1, 0, 0), 35), 4, 4);
             scene.meshes["cube.obj"] = cube_mesh(1);
-            add_medium(scene, "cube.obj", 1000, C3f(1), 0);
+            add_medium(scene, "cube.obj", 1000, Color(1), 0);
             return white(scene, {.kind = kind, .accuracy = Accuracy::draft, .spp = 2}, 1e-5, run.progress());
         });
     }
@@ -97,7 +97,7 @@ void add_long_path_cases(StressRun& run)
     };
     // Light passes several spheres of glass before it is turned, so that there must be more of them for as long a way.
     for (const auto& [grains, number, material, radius] : {Deep{"spheres of glass", "10^11", glass_material(1.5), 0.0002}, Deep{"spheres of rough glass", "10^10", glass_material(1.5, 0.5), 0.0005},
-                                                           Deep{"white spheres", "10^9", lambert_material(C3f(1)), 0.001}}) {
+                                                           Deep{"white spheres", "10^9", lambert_material(Color(1)), 0.001}}) {
         for (const IntegratorKind kind : {IntegratorKind::ept, IntegratorKind::ppt}) {
             run.add(fmt::format("the middle of {} {}, {}", number, grains, name_of(kind)), StressExtent::full, [&] {
                 const StressScene scene = from_within(filled_scene(material, radius, run.progress()), 2, 2);
@@ -118,7 +118,7 @@ void add_long_path_cases(StressRun& run)
         room.triangles.push_back({n, last[1], last[2]});
         room.triangles.push_back({n, last[2], n + 1});
         scene.meshes["room.obj"] = room;
-        scene.description.surfaces.push_back({"room.obj", lambert_material(C3f(1)), ""});
+        scene.description.surfaces.push_back({"room.obj", lambert_material(Color(1)), ""});
         return white(scene, {.spp = 1}, 1e-5, run.progress());
     });
 }

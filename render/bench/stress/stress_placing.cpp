@@ -30,21 +30,21 @@ StressScene lit(StressScene scene)
 NamedScene scene_for(IntegratorKind kind, const Progress& progress)
 {
     if (kind == IntegratorKind::ept || kind == IntegratorKind::ppt) return {"48 mixed grains", mixed_scene(progress)};
-    return {"2,400 grains", lit(bed_scene({glass_material(1.5, 0, C3f(0x1p-8f, 0x1p-7f, 0x1p-5f)), lambert_material(C3f(0.96875f, 0.875f, 0.5f))}, progress))};
+    return {"2,400 grains", lit(bed_scene({glass_material(1.5, 0, Color(0x1p-8f, 0x1p-7f, 0x1p-5f)), lambert_material(Color(0.96875f, 0.875f, 0.5f))}, progress))};
 }
 
 NamedScene ball_of_medium()
 {
     StressScene scene = empty_scene(24, 18, V3d(-3, -3.5, 2.5), V3d(0), 35);
     scene.meshes["ball.obj"] = ball_mesh(1, 2);
-    add_medium(scene, "ball.obj", 16, C3f(0.99f, 0.9f, 0.5f), 0.75);
+    add_medium(scene, "ball.obj", 16, Color(0.99f, 0.9f, 0.5f), 0.75);
     add_day(scene);
     return {"a ball of medium", scene};
 }
 
 NamedScene filled_cube(const Progress& progress)
 {
-    return {"a filled cube", lit(filled_scene(lambert_material(C3f(0.875f, 0.75f, 0.5f)), 0.125, progress))};
+    return {"a filled cube", lit(filled_scene(lambert_material(Color(0.875f, 0.75f, 0.5f)), 0.125, progress))};
 }
 
 StressFinding same_bits(const StressScene& scene, const std::vector<Placing>& placings, const StressView& view, const Progress& progress)

@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 
 json numbers(const V3d& v) { return {v.x, v.y, v.z}; }
-json numbers(const C3f& c) { return {c.x, c.y, c.z}; }
+json numbers(const Color& c) { return {c.x, c.y, c.z}; }
 
 json material_json(const Material& material, double scale)
 {
@@ -190,14 +190,14 @@ std::vector<V3d> fcc_spheres(int cells)
     return places;
 }
 
-Material lambert_material(const C3f& reflectance)
+Material lambert_material(const Color& reflectance)
 {
     Material material;
     material.reflectance = reflectance;
     return material;
 }
 
-Material glass_material(double ior, double roughness, const C3f& absorption)
+Material glass_material(double ior, double roughness, const Color& absorption)
 {
     Material material;
     material.kind = MaterialKind::dielectric;

@@ -55,7 +55,7 @@ std::vector<V3d> packed_spheres(double fraction, uint64_t count, int copies, con
 /// Touching spheres of radius 1 on a face-centred cubic lattice, f = 0.74: `cells`^3 cubes of four.
 std::vector<V3d> fcc_spheres(int cells);
 
-Material lambert_material(const C3f& reflectance);
-Material glass_material(double ior, double roughness = 0, const C3f& absorption = C3f(0));
+Material lambert_material(const Color& reflectance);
+Material glass_material(double ior, double roughness = 0, const Color& absorption = Color(0));
 
 } // namespace scree

@@ -49,7 +49,7 @@ StressScene scene_from_above(int pixels, double width, double height)
     return scene;
 }
 
-void add_constant(StressScene& scene, const C3f& radiance)
+void add_constant(StressScene& scene, const Color& radiance)
 {
     LightDescription light = light_of(LightDescription::Kind::constant);
     light.radiance = radiance;
@@ -58,15 +58,15 @@ void add_constant(StressScene& scene, const C3f& radiance)
 
 void add_day(StressScene& scene)
 {
-    add_constant(scene, C3f(0.3f, 0.35f, 0.4f));
+    add_constant(scene, Color(0.3f, 0.35f, 0.4f));
     LightDescription sun = light_of(LightDescription::Kind::distant), window = light_of(LightDescription::Kind::rectangle);
     sun.direction = V3d(0.3, 0.4, -1);
-    sun.irradiance = C3f(1.5f);
+    sun.irradiance = Color(1.5f);
     sun.angle = 40;
     window.corner = V3d(-14, -16, 12);
     window.edge1 = V3d(14, 0, 0);
     window.edge2 = V3d(0, 10, 3);
-    window.radiance = C3f(3, 2.5f, 2);
+    window.radiance = Color(3, 2.5f, 2);
     scene.description.lights.insert(scene.description.lights.end(), {sun, window});
 }
 
@@ -79,11 +79,11 @@ void add_type(StressScene& scene, const std::string& name, const Material& mater
     scene.description.types.push_back(type);
 }
 
-void add_medium(StressScene& scene, const std::string& mesh, double sigma_t, const C3f& albedo, double g)
+void add_medium(StressScene& scene, const std::string& mesh, double sigma_t, const Color& albedo, double g)
 {
     MediumDescription medium;
     medium.mesh = mesh;
-    medium.sigma_t = C3f(static_cast<float>(sigma_t));
+    medium.sigma_t = Color(static_cast<float>(sigma_t));
     medium.albedo = albedo;
     medium.g = g;
     scene.description.media.push_back(medium);
@@ -97,11 +97,11 @@ StressScene mixed_scene(const Progress& progress)
     scene.meshes["cube.obj"] = cube_mesh(1);
     scene.meshes["ball.obj"] = ball_mesh(1, 1);
     scene.meshes["floor.obj"] = {{V3d(-16, -16, -5), V3d(16, -16, -5), V3d(16, 16, -5), V3d(-16, 16, -5)}, {{0, 1, 2}, {0, 2, 3}}};
-    add_type(scene, "clay", lambert_material(C3f(0.8f, 0.5f, 0.3f)));
-    add_type(scene, "cube", lambert_material(C3f(0.7f)), "cube.obj");
-    add_type(scene, "gem", glass_material(1.4, 0.5, C3f(0.125f, 0.25f, 0.5f)), "ball.obj");
-    add_type(scene, "glass", glass_material(1.5, 0, C3f(0.25f, 0.5f, 0.125f)));
-    scene.description.surfaces.push_back({"floor.obj", lambert_material(C3f(0.6f, 0.5f, 0.4f)), ""});
+    add_type(scene, "clay", lambert_material(Color(0.8f, 0.5f, 0.3f)));
+    add_type(scene, "cube", lambert_material(Color(0.7f)), "cube.obj");
+    add_type(scene, "gem", glass_material(1.4, 0.5, Color(0.125f, 0.25f, 0.5f)), "ball.obj");
+    add_type(scene, "glass", glass_material(1.5, 0, Color(0.25f, 0.5f, 0.125f)));
+    scene.description.surfaces.push_back({"floor.obj", lambert_material(Color(0.6f, 0.5f, 0.4f)), ""});
     const std::vector<V3d> places = packed_spheres(0.5, 48, 1, progress);
     for (size_t i = 0; i < places.size(); ++i) scene.grains.push_back({places[i], 1.03125, i % 4, any_rotation(static_cast<uint32_t>(i))});
     return scene;

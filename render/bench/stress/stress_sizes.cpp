@@ -33,14 +33,14 @@ StressScene decades(int decade, const std::vector<Material>& materials)
 
 StressFinding like_decade_zero(int decade, const StressView& view, const Progress& progress)
 {
-    const std::vector<Material> materials{lambert_material(C3f(0.8f, 0.6f, 0.3f)), glass_material(1.5)};
+    const std::vector<Material> materials{lambert_material(Color(0.8f, 0.6f, 0.3f)), glass_material(1.5)};
     StressScene near = decades(decade, materials), middle = decades(0, materials);
     for (StressScene* scene : {&near, &middle}) {
-        add_constant(*scene, C3f(0.3f, 0.35f, 0.4f));
+        add_constant(*scene, Color(0.3f, 0.35f, 0.4f));
         LightDescription sun;
         sun.kind = LightDescription::Kind::distant;
         sun.direction = V3d(0.3, 0.4, -1);
-        sun.irradiance = C3f(1.5f);
+        sun.irradiance = Color(1.5f);
         sun.angle = 40;
         scene->description.lights.push_back(sun);
     }
@@ -60,7 +60,7 @@ StressFinding white(int decade, const Material& material, const StressView& view
         scene.meshes[mesh] = cube_mesh(1);
         scene.description.types[0].mesh = mesh;
     }
-    add_constant(scene, C3f(1));
+    add_constant(scene, Color(1));
     const StressPicture picture = StressStage(scene, {}, view, progress).render(view, progress);
     StressFinding finding = compare_exactly(picture.film, 1, 1e-5);
     finding.count(picture.statistics);
@@ -72,8 +72,8 @@ StressFinding dust(const V3d& offset, const Progress& progress)
 {
     constexpr double radius = 1e-6;
     StressScene scene = scene_from_above(16, 4 * radius, 2);
-    add_type(scene, "grain", lambert_material(C3f(0)));
-    add_type(scene, "white", lambert_material(C3f(1)));
+    add_type(scene, "grain", lambert_material(Color(0)));
+    add_type(scene, "white", lambert_material(Color(1)));
     scene.grains.push_back({V3d(0), 1, 1, {1, 0, 0, 0}});
     for (int y = -8; y <= 8; ++y) {
         for (int x = -8; x <= 8; ++x) {
@@ -81,7 +81,7 @@ StressFinding dust(const V3d& offset, const Progress& progress)
             scene.grains.push_back({up * (1 + radius), radius, 0, {1, 0, 0, 0}});
         }
     }
-    add_constant(scene, C3f(1));
+    add_constant(scene, Color(1));
     const StressView view{.spp = 256};
     Placing placing;
     placing.offset = offset;
@@ -113,7 +113,7 @@ void add_size_cases(StressRun& run)
     run.begin("sizes, furnace", "the same 52 grains, lossless, in a surrounding of 1 with 1", "1e-5: the rounding of some 100 products of floats");
     for (const int decade : {-9, -3, 3}) {
         run.add(fmt::format("glass, near radius 1e{}, ept", decade), StressExtent::quick, [&] { return white(decade, glass_material(1.5), {.spp = 64}, run.progress()); });
-        run.add(fmt::format("white, near radius 1e{}, ept", decade), StressExtent::quick, [&] { return white(decade, lambert_material(C3f(1)), {.spp = 64}, run.progress()); });
+        run.add(fmt::format("white, near radius 1e{}, ept", decade), StressExtent::quick, [&] { return white(decade, lambert_material(Color(1)), {.spp = 64}, run.progress()); });
     }
     for (const int decade : {-9, 3}) {
         run.add(fmt::format("glass cubes, near radius 1e{}, ept", decade), StressExtent::quick, [&] { return white(decade, glass_material(1.5), {.spp = 64}, run.progress(), "cube.obj"); });

@@ -22,7 +22,7 @@ struct Entry {
     std::vector<ShapeParameter> parameters;
 };
 
-Material dielectric(double ior, double roughness, const C3f& absorption_per_mm)
+Material dielectric(double ior, double roughness, const Color& absorption_per_mm)
 {
     Material material;
     material.kind = MaterialKind::dielectric;
@@ -32,7 +32,7 @@ Material dielectric(double ior, double roughness, const C3f& absorption_per_mm)
     return material;
 }
 
-Material lambert(const C3f& reflectance)
+Material lambert(const Color& reflectance)
 {
     Material material;
     material.kind = MaterialKind::lambert;
@@ -135,8 +135,8 @@ const std::vector<Entry>& entries()
         {{"flour", "wheat flour: a lump of endosperm with starch granules", lambert({0.985f, 0.975f, 0.935f}), 0.06 * mm, 20000, 1}, make_cluster, cluster},
         {{"hairball", "wound hair: closed tubes that run through each other", lambert({0.5f, 0.34f, 0.23f}), 5 * mm, 100000, 1}, make_fibre_ball, fibre_ball},
         {{"cinnamon", "a curled piece of cinnamon bark", lambert({0.62f, 0.37f, 0.2f}), 0.5 * mm, 20000, 1}, make_bark_curl, bark_curl},
-        {{"dielectric_sphere", "the sphere itself, of clear glass", dielectric(1.5, 0, C3f(0.0f)), 0.5 * mm, 0, 1}, make_ball, no_parameters},
-        {{"diffuse_sphere", "the sphere itself, diffuse", lambert(C3f(0.8f)), 0.5 * mm, 0, 1}, make_ball, no_parameters}};
+        {{"dielectric_sphere", "the sphere itself, of clear glass", dielectric(1.5, 0, Color(0.0f)), 0.5 * mm, 0, 1}, make_ball, no_parameters},
+        {{"diffuse_sphere", "the sphere itself, diffuse", lambert(Color(0.8f)), 0.5 * mm, 0, 1}, make_ball, no_parameters}};
     return all;
 }
 
