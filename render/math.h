@@ -27,7 +27,7 @@ using Color = Imath::Color3<Real>;
 
 inline constexpr double pi = std::numbers::pi;
 
-inline float max_component(const Color& c) { return std::max({c.x, c.y, c.z}); }
+inline Real max_component(const Color& c) { return std::max({c.x, c.y, c.z}); }
 inline double luminance(const Color& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; } // Rec. 709
 inline bool is_black(const Color& c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 

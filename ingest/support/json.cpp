@@ -89,13 +89,12 @@ Imath::V3d JsonValue::vec3() const
     return {items[0].number(), items[1].number(), items[2].number()};
 }
 
-Imath::C3f JsonValue::rgb(double lo, double hi) const
+Imath::Color3<double> JsonValue::rgb(double lo, double hi) const
 {
-    if (is_number()) return Imath::C3f(static_cast<float>(number(lo, hi)));
+    if (is_number()) return Imath::Color3<double>(number(lo, hi));
     if (!is_array() || value_->size() != 3) fail("one number or three (RGB)");
     const auto items = array(3, 3);
-    return {static_cast<float>(items[0].number(lo, hi)), static_cast<float>(items[1].number(lo, hi)),
-            static_cast<float>(items[2].number(lo, hi))};
+    return {items[0].number(lo, hi), items[1].number(lo, hi), items[2].number(lo, hi)};
 }
 
 std::vector<JsonValue> JsonValue::array(size_t min_size, size_t max_size) const

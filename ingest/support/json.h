@@ -36,7 +36,7 @@ public:
     size_t choice(const std::vector<std::string>& options) const;
     Imath::V3d vec3() const;
     /// Three numbers in lo..hi, or one for all three.
-    Imath::C3f rgb(double lo, double hi) const;
+    Imath::Color3<double> rgb(double lo, double hi) const;
     std::vector<JsonValue> array(size_t min_size = 0, size_t max_size = std::numeric_limits<size_t>::max()) const;
     JsonObject object() const;
 

@@ -22,7 +22,7 @@ int main(int argc, char** argv)
     absorbing.absorption = Color(0.05f);
     const LibraryGrain& sugar = *find_library_grain("sugar");
     Material sugar_material = sugar.material;
-    sugar_material.absorption *= static_cast<float>(sugar.typical_radius);
+    sugar_material.absorption *= static_cast<Real>(sugar.typical_radius);
     const auto sugar_shape = std::make_shared<const Exemplar>(device, make_grain_shape(sugar, {0, 2000, {}}, "sugar"), "sugar");
     const auto glass = build_gsdf({nullptr, dielectric(1.5)}, {error});
     const std::vector<GrainType> types{{"white 0.9", lambert(0.9f), nullptr, build_gsdf({nullptr, lambert(1)}, {error})},

@@ -163,7 +163,7 @@ void run(bool quick)
         MediumGrids grids;
         grids.density = cloud;
         GridMediumOptions options;
-        options.scale = Color(static_cast<float>(sigma));
+        options.scale = Color(static_cast<Real>(sigma));
         const double start = busy_seconds();
         const GridMedium medium = make_grid_medium(grids, options, {}, {});
         const double setup = (busy_seconds() - start);

@@ -19,7 +19,7 @@ void write_preview(const std::filesystem::path& path, const Film& film)
     values.reserve(3 * film.pixels().size());
     for (const Pixel& pixel : film.pixels()) {
         const Color c = pixel.mean();
-        for (const float x : {c.x, c.y, c.z}) values.push_back(to_srgb(x));
+        for (const Real x : {c.x, c.y, c.z}) values.push_back(to_srgb(static_cast<float>(x)));
     }
     write_picture_file(path, film.x1() - film.x0(), film.y1() - film.y0(), values);
 }

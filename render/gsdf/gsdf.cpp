@@ -155,11 +155,11 @@ uint32_t Gsdf::pick(uint32_t stratum, uint32_t cell, double u) const
 Color Gsdf::weight(uint32_t number, const Material& material, double radius) const
 {
     const GsdfRecord& r = data_.records[number];
-    Color weight = data_.weights.empty() ? Color(1) : data_.weights[number];
+    Color weight = data_.weights.empty() ? Color(1) : Color(data_.weights[number]);
     const Color& each = material.kind == MaterialKind::lambert ? material.reflectance : material.tint;
-    const auto events = static_cast<float>(r.events);
+    const auto events = static_cast<Real>(r.events);
     if (each != Color(1)) weight *= Color(std::pow(each.x, events), std::pow(each.y, events), std::pow(each.z, events));
-    if (material.transmits() && !is_black(material.absorption)) weight *= exp(material.absorption * (-r.length * static_cast<float>(radius)));
+    if (material.transmits() && !is_black(material.absorption)) weight *= exp(material.absorption * (-r.length * static_cast<Real>(radius)));
     return weight;
 }
 
@@ -189,7 +189,7 @@ double Gsdf::mean_cosine() const
 uint64_t Gsdf::bytes() const
 {
     return (data_.alpha0.size() + data_.density.size() + shape_.size() + cumulated_.size()) * sizeof(float) + data_.first.size() * sizeof(uint32_t) +
-           data_.records.size() * sizeof(GsdfRecord) + data_.weights.size() * sizeof(Color);
+           data_.records.size() * sizeof(GsdfRecord) + data_.weights.size() * sizeof(Imath::C3f);
 }
 
 } // namespace scree

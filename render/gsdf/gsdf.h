@@ -59,7 +59,7 @@ public:
         std::vector<float> density;       ///< strata * cells means over cells, per solid angle
         std::vector<uint32_t> first;      ///< strata * cells + 1: where a cell's records begin
         std::vector<GsdfRecord> records;
-        std::vector<Color> weights;         ///< of the records, for metals; else empty
+        std::vector<Imath::C3f> weights;  ///< of the records, for metals; else empty
         GsdfQuality quality;
     };
     /// Takes over data of the right sizes, the masses of every stratum summing to 1; every cell of positive mass has a record.

@@ -248,7 +248,7 @@ private:
                     const Scattered* near = nearest(of_cell, lender_[s], c);
                     const V3d centre = DirectionGrid::centre(c);
                     data.records.push_back(near ? turned(near->record, centre) : straight_back(centre));
-                    if (weighted) data.weights.push_back(near ? near->weight : Color(1));
+                    if (weighted) data.weights.push_back(Imath::C3f(near ? near->weight : Color(1)));
                 }
                 data.first.push_back(static_cast<uint32_t>(data.records.size()));
             }

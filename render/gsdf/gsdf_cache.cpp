@@ -42,8 +42,8 @@ uint64_t gsdf_key(const GsdfSource& source, const GsdfOptions& options)
     if (m.kind != MaterialKind::lambert) add(m.alpha);
     if (m.kind == MaterialKind::dielectric) add(m.ior);
     if (m.kind == MaterialKind::conductor) {
-        add(m.eta);
-        add(m.k);
+        add(Imath::C3f(m.eta)); // as it is in a build in double precision too
+        add(Imath::C3f(m.k));
     }
     return key;
 }

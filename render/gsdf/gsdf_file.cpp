@@ -10,7 +10,7 @@ namespace scree {
 
 namespace {
 
-static_assert(sizeof(GsdfRecord) == 16 && sizeof(Color) == 12);
+static_assert(sizeof(GsdfRecord) == 16 && sizeof(Imath::C3f) == 12);
 
 constexpr std::array<char, 8> magic{'S', 'C', 'R', 'E', 'E', 'G', 'S', 'D'};
 const std::string what = "a table of grain scattering";
@@ -66,7 +66,7 @@ StoredGsdf read_gsdf(const std::filesystem::path& file)
     constexpr size_t all = static_cast<size_t>(Gsdf::strata) * Gsdf::cells;
     const uint64_t fixed = (Gsdf::alpha_bins + all) * sizeof(float) + (all + 1) * sizeof(uint32_t);
     const bool counts_fit = header.records < (1ull << 32) && (header.weights == 0 || header.weights == header.records);
-    if (!counts_fit || reader.left() != fixed + header.records * sizeof(GsdfRecord) + header.weights * sizeof(Color)) throw reader.refuse("a file of the wrong length");
+    if (!counts_fit || reader.left() != fixed + header.records * sizeof(GsdfRecord) + header.weights * sizeof(Imath::C3f)) throw reader.refuse("a file of the wrong length");
 
     Gsdf::Data data;
     data.alpha0.resize(Gsdf::alpha_bins);

@@ -170,7 +170,7 @@ bool Path::handle_medium(const MediumEvent& event, Hit& met)
             const MediumRegion& region = world_.regions[static_cast<size_t>(std::countr_zero(regions_))];
             if (region.homogeneous && region.is_achromatic()) reached = std::exp(-region.homogeneous->sigma_t().x * clear());
         }
-        if (reached >= 1 || sampler_.next() < reached) add_phase_light(o_, d_, event.phase, Color(static_cast<float>(1 / reached)));
+        if (reached >= 1 || sampler_.next() < reached) add_phase_light(o_, d_, event.phase, Color(static_cast<Real>(1 / reached)));
     }
 
     const double u = sampler_.next(), phi = 2 * pi * sampler_.next();
@@ -187,15 +187,15 @@ Color Path::passing(const V3d& o, const V3d& d, double distance, const Place& fr
 {
     if (media_) return passing_media(o, d, distance, from, light, regions);
     ++result_.shadow_rays;
-    return Color(static_cast<float>(tracer_.visibility(o, d, distance, from, light, detail())));
+    return Color(static_cast<Real>(tracer_.visibility(o, d, distance, from, light, detail())));
 }
 
 Color Path::passing_media(V3d o, const V3d& d, double distance, Place from, uint32_t light, RegionSet regions)
 {
-    constexpr float enough = 0.05f; // below it Russian roulette decides whether to look on
+    constexpr Real enough = 0.05f; // below it Russian roulette decides whether to look on
     Color passed(1);
     const auto is_lost = [&] {
-        const float most = max_component(passed);
+        const Real most = max_component(passed);
         if (most >= enough) return false;
         if (!(most > 0) || sampler_.next() * enough >= most) return true;
         passed *= enough / most;
@@ -219,7 +219,7 @@ Color Path::passing_media(V3d o, const V3d& d, double distance, Place from, uint
             ++result_.shadow_rays;
             const double visibility = tracer_.visibility(o + looked * d, d, end - looked, looked > 0 ? Place{} : from, light, grains);
             if (visibility == 0) return Color(0);
-            passed *= static_cast<float>(visibility);
+            passed *= static_cast<Real>(visibility);
             looked = end;
         }
         if (!crosses) return passed;

@@ -131,13 +131,13 @@ bool Path::survives()
     if (w <= 0) return false;
     if (w >= 1 || depth_ < 3) return true;
     if (sampler_.next() >= w) return false;
-    weight_ *= static_cast<float>(1 / w);
+    weight_ *= static_cast<Real>(1 / w);
     return true;
 }
 
 Color Path::transmittance(const Material& medium, double length)
 {
-    return is_black(medium.absorption) ? Color(1) : exp(medium.absorption * static_cast<float>(-length));
+    return is_black(medium.absorption) ? Color(1) : exp(medium.absorption * static_cast<Real>(-length));
 }
 
 void Path::note_first(const Hit& hit, const Material& material)
@@ -175,7 +175,7 @@ void Path::add_light_sample(const LightSample& light, double distance, const Col
     if (!light.delta && options_.direct_light == DirectLight::both) w *= mis_weight(light.pdf, scatter_pdf);
     Color arriving = light.radiance * passed;
     if (surrounding_ && std::isfinite(distance)) arriving *= transmittance(*surrounding_, distance);
-    add(f * arriving * static_cast<float>(w / light.pdf));
+    add(f * arriving * static_cast<Real>(w / light.pdf));
 }
 
 double Path::found_weight(double light_pdf) const
@@ -202,7 +202,7 @@ void Path::add_infinite_lights()
         if (!lights[i].is_infinite()) continue;
         const Color radiance = world_.lights.infinite_radiance(i, d_);
         if (is_black(radiance)) continue;
-        add(radiance * static_cast<float>(found_weight(found_pdf(i, std::numeric_limits<double>::infinity()))));
+        add(radiance * static_cast<Real>(found_weight(found_pdf(i, std::numeric_limits<double>::infinity()))));
     }
 }
 
@@ -210,7 +210,7 @@ void Path::add_light(const Hit& hit)
 {
     const auto light = static_cast<uint32_t>(hit.place.index);
     const double pdf = found_pdf(light, hit.t);
-    add(world_.lights.emitted(light) * static_cast<float>(found_weight(pdf)));
+    add(world_.lights.emitted(light) * static_cast<Real>(found_weight(pdf)));
 }
 
 PathResult trace_path(const World& world, const Tracer& tracer, V3d o, V3d d, Sampler& sampler, const PathOptions& options,

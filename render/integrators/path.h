@@ -72,7 +72,7 @@ private:
     std::optional<bool> step_through_shell(Hit& met);
     bool diffuse_through(const FittingShell& shell, Hit& met);
     /// Leaves a place by the cosine to the normal; light_weight: of light sampled there, 0 for none.
-    bool leave_by_cosine(const V3d& place, const V3d& normal, float light_weight);
+    bool leave_by_cosine(const V3d& place, const V3d& normal, Real light_weight);
     /// Light that one of the shell's scatterings brings, for all of them; scale: of a mean free path.
     void add_event_light(const FittingShell& shell, double scale, double weight);
     /// How far to the first scattering in a shell that does scatter.

@@ -53,7 +53,7 @@ std::optional<bool> Path::step_through_shell(Hit& met)
     const ShellExit& exit = shell.shell->exit(sampler_.next());
     const ShellPlace there = place_of(exit);
     const V3d normal = frame.to_world(there.place);
-    weight_ *= shell.ratio(exit.events) * static_cast<float>(shell.shell->survival());
+    weight_ *= shell.ratio(exit.events) * static_cast<Real>(shell.shell->survival());
     if (!survives()) return false;
     met.point = o_ + shell.length * normal;
     if (is_full || exit.events == 1) {
@@ -62,7 +62,7 @@ std::optional<bool> Path::step_through_shell(Hit& met)
         last_ = {false, shell.phase.pdf(exit.cosine), o_ - scale * double{exit.flight} * direction, true};
         return true;
     }
-    return leave_by_cosine(met.point, normal, lit ? static_cast<float>(1 / reached) : 0);
+    return leave_by_cosine(met.point, normal, lit ? static_cast<Real>(1 / reached) : 0);
 }
 
 bool Path::diffuse_through(const FittingShell& shell, Hit& met)
@@ -76,14 +76,14 @@ bool Path::diffuse_through(const FittingShell& shell, Hit& met)
         const double flux = kappa * shell.radius * std::cosh(kappa * beyond) + std::sinh(kappa * beyond);
         return x > 1e-8 ? flux / std::sinh(x) : 1.0;
     };
-    weight_ *= Color(static_cast<float>(left(shell.albedo.x)), static_cast<float>(left(shell.albedo.y)), static_cast<float>(left(shell.albedo.z)));
+    weight_ *= Color(static_cast<Real>(left(shell.albedo.x)), static_cast<Real>(left(shell.albedo.y)), static_cast<Real>(left(shell.albedo.z)));
     if (!survives()) return false;
     met.point = o_ + shell.length * normal;
     const bool lit = world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only;
     return leave_by_cosine(met.point, normal, lit ? 1 : 0);
 }
 
-bool Path::leave_by_cosine(const V3d& place, const V3d& normal, float light_weight)
+bool Path::leave_by_cosine(const V3d& place, const V3d& normal, Real light_weight)
 {
     if (light_weight > 0) {
         const double u0 = sampler_.next(), u1 = sampler_.next(), u2 = sampler_.next();
@@ -91,7 +91,7 @@ bool Path::leave_by_cosine(const V3d& place, const V3d& normal, float light_weig
         const double cosine = light.valid ? light.direction.dot(normal) : 0;
         if (cosine > 0) {
             const Color passed = passing(place, light.direction, light.distance, {}, light.light, regions_);
-            if (!is_black(passed)) add_light_sample(light, light.distance, Color(light_weight * static_cast<float>(cosine / pi)), cosine / pi, passed);
+            if (!is_black(passed)) add_light_sample(light, light.distance, Color(light_weight * static_cast<Real>(cosine / pi)), cosine / pi, passed);
         }
     }
     const double u = sampler_.next(), v = sampler_.next();
@@ -107,7 +107,7 @@ void Path::add_event_light(const FittingShell& shell, double scale, double weigh
     const ShellEvent& event = shell.shell->event(sampler_.next());
     const V3d place = o_ + scale * frame.to_world({event.aside, 0, event.along});
     weight *= shell.shell->event_weight() / shell.shell->closeness(event);
-    add_phase_light(place, frame.to_world(V3d(event.direction)), shell.phase, shell.ratio(event.events) * static_cast<float>(weight));
+    add_phase_light(place, frame.to_world(V3d(event.direction)), shell.phase, shell.ratio(event.events) * static_cast<Real>(weight));
 }
 
 double Path::first_flight(const FittingShell& shell)
@@ -117,7 +117,7 @@ double Path::first_flight(const FittingShell& shell)
 
 void Path::add_single_light(const FittingShell& shell, double weight)
 {
-    add_phase_light(o_ + first_flight(shell) * d_, d_, shell.phase, shell.albedo * static_cast<float>(weight));
+    add_phase_light(o_ + first_flight(shell) * d_, d_, shell.phase, shell.albedo * static_cast<Real>(weight));
 }
 
 void Path::add_phase_light(const V3d& place, const V3d& before, const PhaseFunction& phase, const Color& weight)
@@ -127,7 +127,7 @@ void Path::add_phase_light(const V3d& place, const V3d& before, const PhaseFunct
     if (!light.valid) return;
     const double density = phase.pdf(before.dot(light.direction));
     const Color passed = passing(place, light.direction, light.distance, {}, light.light, regions_);
-    if (!is_black(passed)) add_light_sample(light, light.distance, weight * static_cast<float>(density), density, passed);
+    if (!is_black(passed)) add_light_sample(light, light.distance, weight * static_cast<Real>(density), density, passed);
 }
 
 } // namespace scree

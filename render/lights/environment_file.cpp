@@ -26,7 +26,7 @@ EnvironmentMap read_environment(const std::filesystem::path& file, const V3d& up
     for (size_t i = 0; i < texels.size(); ++i) {
         const float* v = &picture.values[i * channels];
         texels[i] = channels >= 3 ? Color(decode(v[0]), decode(v[1]), decode(v[2])) : Color(decode(v[0]));
-        for (const float x : {texels[i].x, texels[i].y, texels[i].z}) {
+        for (const Real x : {texels[i].x, texels[i].y, texels[i].z}) {
             if (!std::isfinite(x) || x < 0) {
                 throw InputError(fmt::format("{}: row {}, column {}", file.string(), i / width, i % width), fmt::format("{}", x),
                                  "a radiance of 0 or more");

@@ -63,9 +63,9 @@ Color EnvironmentMap::radiance(const V3d& direction) const
     const size_t x0 = wrap(std::floor(x)), x1 = wrap(std::floor(x) + 1);
     const size_t y0 = clamp(std::floor(y)), y1 = clamp(std::floor(y) + 1);
     const auto row = [&](size_t yy) {
-        return texel(x0, yy) * static_cast<float>(1 - fx) + texel(x1, yy) * static_cast<float>(fx);
+        return texel(x0, yy) * static_cast<Real>(1 - fx) + texel(x1, yy) * static_cast<Real>(fx);
     };
-    return row(y0) * static_cast<float>(1 - fy) + row(y1) * static_cast<float>(fy);
+    return row(y0) * static_cast<Real>(1 - fy) + row(y1) * static_cast<Real>(fy);
 }
 
 V3d EnvironmentMap::sample(double u1, double u2) const
@@ -90,10 +90,10 @@ Color EnvironmentMap::mean() const
         const double sine = std::sin(pi * (static_cast<double>(y) + 0.5) / static_cast<double>(height_));
         Color row(0);
         for (size_t x = 0; x < width_; ++x) row += texel(x, y);
-        sum += row * static_cast<float>(sine);
+        sum += row * static_cast<Real>(sine);
         total += sine * static_cast<double>(width_);
     }
-    return sum * static_cast<float>(1 / total);
+    return sum * static_cast<Real>(1 / total);
 }
 
 } // namespace scree

@@ -53,7 +53,7 @@ Color eval_bsdf(const Material& material, const V3d& wo, const V3d& wi, Sampler&
 {
     const bool same_side = wo.z * wi.z > 0;
     if (material.kind == MaterialKind::lambert) {
-        return same_side ? material.reflectance * static_cast<float>(std::abs(wi.z) / pi) : Color(0);
+        return same_side ? material.reflectance * static_cast<Real>(std::abs(wi.z) / pi) : Color(0);
     }
     if (material.alpha == 0 || wi.z == 0 || wo.z == 0 || (!same_side && !material.transmits())) return Color(0);
     const bool below = wo.z < 0;

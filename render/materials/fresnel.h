@@ -40,8 +40,8 @@ inline double fresnel_conductor(double cos_i, double eta, double k)
 
 inline Color fresnel_conductor(double cos_i, const Color& eta, const Color& k)
 {
-    return {static_cast<float>(fresnel_conductor(cos_i, eta.x, k.x)), static_cast<float>(fresnel_conductor(cos_i, eta.y, k.y)),
-            static_cast<float>(fresnel_conductor(cos_i, eta.z, k.z))};
+    return {static_cast<Real>(fresnel_conductor(cos_i, eta.x, k.x)), static_cast<Real>(fresnel_conductor(cos_i, eta.y, k.y)),
+            static_cast<Real>(fresnel_conductor(cos_i, eta.z, k.z))};
 }
 
 inline V3d reflect(const V3d& w, const V3d& m) { return 2 * w.dot(m) * m - w; }

@@ -70,10 +70,10 @@ struct Walk {
             if (cosine <= 0) return Color(0);
             const double density = ggx.d_visible(in, m) / (4 * cosine);
             if (material.kind == MaterialKind::conductor) {
-                return fresnel_conductor(std::min(1.0, cosine), material.eta, material.k) * static_cast<float>(density);
+                return fresnel_conductor(std::min(1.0, cosine), material.eta, material.k) * static_cast<Real>(density);
             }
             double cos_t;
-            return Color(static_cast<float>(density * fresnel_dielectric(std::min(1.0, cosine), relative_index(), cos_t)));
+            return Color(static_cast<Real>(density * fresnel_dielectric(std::min(1.0, cosine), relative_index(), cos_t)));
         }
         // Walter et al. 2007, eq. 16 and 17: m is along -(in + eta out), here turned to the side of `in`.
         const double n = relative_index();
@@ -87,7 +87,7 @@ struct Walk {
         const double transmittance = 1 - fresnel_dielectric(std::min(1.0, cos_in), n, cos_t);
         const double denominator = cos_in - n * cos_out;
         const double density = ggx.d_visible(in, m) * transmittance * n * n * cos_out / (denominator * denominator);
-        return Color(static_cast<float>(density));
+        return Color(static_cast<Real>(density));
     }
 };
 
@@ -116,7 +116,7 @@ Color estimate_walk(const Material& material, double eta, const V3d& wo, const V
         const bool through = walk.below != to_below;
         const double c_out = through ? 1 - walk.c : walk.c;
         const double escape = std::pow(c_out, walk.ggx.lambda(out_own));
-        const Color term = walk.weight * walk.phase(out, through) * static_cast<float>(escape);
+        const Color term = walk.weight * walk.phase(out, through) * static_cast<Real>(escape);
         if (std::isfinite(term.x + term.y + term.z)) sum += term;
         walk.scatter(sampler);
         if (!finite(walk.w)) break;

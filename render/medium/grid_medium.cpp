@@ -217,7 +217,7 @@ std::optional<double> Walk::chromatic_event(double t0, double t1, SpectralState&
             depth = draw_optical_depth(sampler);
         }
     });
-    const Color factor(static_cast<float>(ratio[0]), static_cast<float>(ratio[1]), static_cast<float>(ratio[2]));
+    const Color factor(static_cast<Real>(ratio[0]), static_cast<Real>(ratio[1]), static_cast<Real>(ratio[2]));
     state.multiply(factor);
     return scattered;
 }
@@ -285,7 +285,7 @@ Color Walk::chromatic_transmittance(double t0, double t1, Sampler& sampler) cons
             if (is_lost()) return true;
         }
     });
-    return {static_cast<float>(left[0]), static_cast<float>(left[1]), static_cast<float>(left[2])};
+    return {static_cast<Real>(left[0]), static_cast<Real>(left[1]), static_cast<Real>(left[2])};
 }
 
 } // namespace
@@ -311,7 +311,7 @@ Color GridMedium::transmittance(const V3d& o, const V3d& d, double t0, double t1
 {
     const Walk walk(*data_, o, d);
     if (!walk.is_sound()) return Color(1);
-    return data_->achromatic ? Color(static_cast<float>(walk.transmittance(t0, t1, sampler))) : walk.chromatic_transmittance(t0, t1, sampler);
+    return data_->achromatic ? Color(static_cast<Real>(walk.transmittance(t0, t1, sampler))) : walk.chromatic_transmittance(t0, t1, sampler);
 }
 
 Imath::Box3d GridMedium::bounds() const
@@ -350,7 +350,7 @@ double GridMedium::voxel() const
 Color GridMedium::sigma_t(const V3d& p) const
 {
     const Sigma sigma = data_->sigma_of(data_->density.at(p));
-    return {static_cast<float>(sigma[0]), static_cast<float>(sigma[1]), static_cast<float>(sigma[2])};
+    return {static_cast<Real>(sigma[0]), static_cast<Real>(sigma[1]), static_cast<Real>(sigma[2])};
 }
 
 Color GridMedium::albedo(const V3d& p) const { return data_->albedo_at(p); }

@@ -21,7 +21,7 @@ MediumEvent HomogeneousMedium::event(double t0, double t1, SpectralState& state,
         for (int c = 0; c < 3; ++c) {
             if (sigma_t_[c] == sigma) continue;
             const double ratio = std::exp((sigma - sigma_t_[c]) * length) * (scattered ? sigma_t_[c] / sigma : 1);
-            factor[c] = static_cast<float>(std::min<double>(ratio, std::numeric_limits<float>::max()));
+            factor[c] = static_cast<Real>(std::min<double>(ratio, std::numeric_limits<Real>::max()));
         }
         state.multiply(factor);
     }
@@ -30,7 +30,7 @@ MediumEvent HomogeneousMedium::event(double t0, double t1, SpectralState& state,
 
 Color HomogeneousMedium::transmittance(double length) const
 {
-    const auto of = [&](double sigma) { return sigma > 0 ? static_cast<float>(std::exp(-sigma * length)) : 1.0f; };
+    const auto of = [&](double sigma) { return sigma > 0 ? static_cast<Real>(std::exp(-sigma * length)) : Real(1); };
     if (is_achromatic()) return Color(of(sigma_t_.x));
     return {of(sigma_t_.x), of(sigma_t_.y), of(sigma_t_.z)};
 }

@@ -21,7 +21,7 @@ struct SpectralState {
 
     void multiply(const Color& factor)
     {
-        constexpr float most = 1e30f; // so much likelier for another hero, a walk counts nothing here; but it stays a number
+        constexpr Real most = 1e30f; // so much likelier for another hero, a walk counts nothing here; but it stays a number
         for (int c = 0; c < 3; ++c) ratio[c] = std::min(ratio[c] * factor[c], most);
     }
     Color weight() const { return ratio * (3 / (ratio.x + ratio.y + ratio.z)); }

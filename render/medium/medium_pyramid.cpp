@@ -13,7 +13,7 @@ constexpr double finest_samples = 0.75;  ///< apart, in voxels: what a voxel hol
 
 } // namespace
 
-void MediumPyramid::Cell::add(const Cell& other, float weight)
+void MediumPyramid::Cell::add(const Cell& other, Real weight)
 {
     const bool first = sigma_t == 0 && sigma_high == 0 && back_high == 0;
     sigma_t += weight * other.sigma_t;
@@ -22,7 +22,7 @@ void MediumPyramid::Cell::add(const Cell& other, float weight)
     sigma_square += weight * other.sigma_square;
     loss_square += weight * other.loss_square;
     back_square += weight * other.back_square;
-    const auto widen = [first](float& low, float& high, float other_low, float other_high) {
+    const auto widen = [first](Real& low, Real& high, Real other_low, Real other_high) {
         low = first ? other_low : std::min(low, other_low);
         high = first ? other_high : std::max(high, other_high);
     };
@@ -51,7 +51,7 @@ MediumPyramid::Cell MediumPyramid::cell_at(const GridMedium& medium, const V3d& 
     cell.sigma_t = medium.sigma_t(place).x;
     const Color albedo = medium.albedo(place);
     for (unsigned c = 0; c < 3; ++c) cell.scattered[c] = cell.sigma_t * albedo[c];
-    cell.forward = static_cast<float>(cell.brightest() * medium.g(place));
+    cell.forward = static_cast<Real>(cell.brightest() * medium.g(place));
     cell.forget_range();
     cell.forget_squares();
     return cell;
@@ -64,7 +64,7 @@ MediumPyramid::MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, 
     origin_ = box.min;
     width_ = std::max(medium.voxel(), std::cbrt(extent.x * extent.y * extent.z / most_cells));
     const int samples = std::clamp(static_cast<int>(std::ceil(width_ / (finest_samples * medium.voxel()))), 2, 64);
-    const float share = 1 / static_cast<float>(samples * samples * samples);
+    const Real share = 1 / static_cast<Real>(samples * samples * samples);
     Level first;
     for (int k = 0; k < 3; ++k) first.size[static_cast<size_t>(k)] = static_cast<int64_t>(std::ceil(extent[k] / width_));
     first.cells.resize(static_cast<size_t>(first.size[0] * first.size[1] * first.size[2]));
@@ -119,7 +119,7 @@ void MediumPyramid::add_level()
                     if (i >= below.size[0] || j >= below.size[1] || k >= below.size[2]) continue;
                     Cell own = below.at(i, j, k);
                     own.forget_range(); // the mean of the part, not what is within it
-                    cell.add(own, 1 / static_cast<float>(parts));
+                    cell.add(own, 1 / static_cast<Real>(parts));
                 }
             }
         }
@@ -154,17 +154,17 @@ bool MediumPyramid::is_same(const V3d& centre, double radius, MediumMean& mean) 
     for (int64_t x = first[0]; x <= last[0]; ++x) {
         for (int64_t y = first[1]; y <= last[1]; ++y) {
             for (int64_t z = first[2]; z <= last[2]; ++z) {
-                ball.add(level.at(x, y, z), static_cast<float>(share[0][x > first[0]] * share[1][y > first[1]] * share[2][z > first[2]]));
+                ball.add(level.at(x, y, z), static_cast<Real>(share[0][x > first[0]] * share[1][y > first[1]] * share[2][z > first[2]]));
             }
         }
     }
     const double sigma = ball.sigma_t, brightest = ball.brightest();
     if (!(sigma > 0 && brightest > 0)) return false;
     mean.sigma_t = sigma;
-    for (unsigned c = 0; c < 3; ++c) mean.albedo[c] = static_cast<float>(std::min(extremes_.albedo_high, ball.scattered[c] / sigma));
+    for (unsigned c = 0; c < 3; ++c) mean.albedo[c] = static_cast<Real>(std::min(extremes_.albedo_high, ball.scattered[c] / sigma));
     mean.g = ball.forward / brightest;
     const double loss = 1 - brightest / sigma, back = 1 - mean.g;
-    constexpr double rounded = 1e-6; // what sums in float are off by; all have no unit
+    constexpr double rounded = 1e-6; // what sums in single precision are off by; all have no unit
     const auto close = [&](double low, double high, double square, double value) {
         const double most = value * tolerance_ + rounded;
         return low >= value - most && high <= value + most && square - value * value <= 0.25 * most * most + rounded * value * value;

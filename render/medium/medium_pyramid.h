@@ -38,15 +38,15 @@ public:
 private:
     /// Means over a cube, the range of those of the eight cubes within, and means of squares over all that does not average out.
     struct Cell {
-        float sigma_t = 0, scattered[3] = {0, 0, 0}, forward = 0; ///< extinction; times albedo; brightest channel's times g
-        float sigma_low = 0, sigma_high = 0, loss_low = 0, loss_high = 0, back_low = 0, back_high = 0; ///< of sigma_t, 1 - albedo, 1 - g
-        float sigma_square = 0, loss_square = 0, back_square = 0; ///< of sigma_t; of the others, times sigma_t and times what is scattered
+        Real sigma_t = 0, scattered[3] = {0, 0, 0}, forward = 0; ///< extinction; times albedo; brightest channel's times g
+        Real sigma_low = 0, sigma_high = 0, loss_low = 0, loss_high = 0, back_low = 0, back_high = 0; ///< of sigma_t, 1 - albedo, 1 - g
+        Real sigma_square = 0, loss_square = 0, back_square = 0; ///< of sigma_t; of the others, times sigma_t and times what is scattered
 
-        float brightest() const { return std::max({scattered[0], scattered[1], scattered[2]}); }
-        float loss() const { return sigma_t > 0 ? 1 - brightest() / sigma_t : 0; }
-        float back() const { return brightest() > 0 ? 1 - forward / brightest() : 1; }
+        Real brightest() const { return std::max({scattered[0], scattered[1], scattered[2]}); }
+        Real loss() const { return sigma_t > 0 ? 1 - brightest() / sigma_t : 0; }
+        Real back() const { return brightest() > 0 ? 1 - forward / brightest() : 1; }
         /// Adds what is in another; the ranges become those of both.
-        void add(const Cell& other, float weight);
+        void add(const Cell& other, Real weight);
         /// As if it were the same all over.
         void forget_range();
         void forget_squares();

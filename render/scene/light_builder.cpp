@@ -17,7 +17,7 @@ Light make_light(const LightDescription& description, const std::shared_ptr<cons
         light.one_minus_cos = 2 * sine * sine;
         light.radiance = description.irradiance;
         // Irradiance of a disc of constant radiance overhead: L pi sin^2.
-        if (half > 0) light.radiance *= static_cast<float>(1 / (pi * std::sin(half) * std::sin(half)));
+        if (half > 0) light.radiance *= static_cast<Real>(1 / (pi * std::sin(half) * std::sin(half)));
         break;
     }
     case Kind::rectangle: {

@@ -19,7 +19,7 @@ double read_alpha(JsonObject& object)
 Color read_rgb(JsonObject& object, const std::string& key, const Color& absent, double lo, double hi)
 {
     const auto value = object.find(key);
-    return value ? value->rgb(lo, hi) : absent;
+    return value ? Color(value->rgb(lo, hi)) : absent;
 }
 
 } // namespace

@@ -108,7 +108,7 @@ double rough_loss(const Material& material, double radius)
     switch (material.kind) {
     case MaterialKind::lambert: return 1 - max_component(material.reflectance);
     case MaterialKind::dielectric: {
-        const float least = std::min({material.absorption.x, material.absorption.y, material.absorption.z});
+        const Real least = std::min({material.absorption.x, material.absorption.y, material.absorption.z});
         const double within = 4.0 / 3 * 1.3 * radius; // a mean chord, and half of another on the way that light takes by reflections
         return 1 - max_component(material.tint) * std::exp(-least * within);
     }

@@ -90,7 +90,7 @@ uint64_t TypeBuilder::build(const std::vector<GrainTypeDescription>& types, cons
             for (const char* part : {"exemplar", "gsdf"}) request.parts.push_back({fmt::format("{} '{}'", part, type.name), false, "no grain has this type"});
         } else {
             made.material = type.material;
-            made.material.absorption *= static_cast<float>(world.space.world_length(1));
+            made.material.absorption *= static_cast<Real>(world.space.world_length(1));
             const bool is_new = !shapes_.contains(type.name);
             Shape& shape = shapes_[type.name];
             if (is_new) shape.hash = hash_shape(shape_source(type));

@@ -275,7 +275,7 @@ void WorldBuilder::Impl::make_surfaces(World& world)
         Surface surface;
         surface.name = scene.surfaces[i].mesh.filename().string();
         surface.material = scene.surfaces[i].material;
-        surface.material.absorption *= static_cast<float>(world.space.world_length(1));
+        surface.material.absorption *= static_cast<Real>(world.space.world_length(1));
         surface.triangles = surfaces[i].triangles;
         surface.positions.reserve(surfaces[i].positions.size());
         for (const V3d& p : surfaces[i].positions) surface.positions.emplace_back(world.space.point(p));

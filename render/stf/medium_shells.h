@@ -16,15 +16,15 @@ struct FittingShell {
     double radius = 0;     ///< in mean free paths
     double sigma_t = 0;
     Color albedo{1};
-    float sampled_albedo = 1; ///< that the shell's records are drawn by; no channel's is larger
+    Real sampled_albedo = 1; ///< that the shell's records are drawn by; no channel's is larger
     PhaseFunction phase; ///< that its records were drawn from
 
     /// What a record of so many scatterings counts per channel, over what the sampled albedo's does.
     Color ratio(uint32_t events) const
     {
-        const auto of = [&](float a) {
-            if (a == sampled_albedo) return 1.0f;
-            return a > 0 ? static_cast<float>(std::exp(events * std::log(double{a} / sampled_albedo))) : 0.0f;
+        const auto of = [&](Real a) {
+            if (a == sampled_albedo) return Real(1);
+            return a > 0 ? static_cast<Real>(std::exp(events * std::log(double{a} / sampled_albedo))) : Real(0);
         };
         return {of(albedo.x), of(albedo.y), of(albedo.z)};
     }
@@ -60,7 +60,7 @@ private:
     uint64_t bytes_ = 0;
     std::vector<std::shared_ptr<const Stf>> stfs_;
     std::vector<Samplers> samplers_; ///< by stf, and within by albedo
-    std::vector<float> albedos_;     ///< that they are for, growing
+    std::vector<Real> albedos_;      ///< that they are for, growing
     FittingShell everywhere_;        ///< of a homogeneous medium
     std::unique_ptr<const MediumPyramid> grid_;
 };

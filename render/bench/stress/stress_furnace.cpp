@@ -19,7 +19,7 @@ StressFinding sampled_furnace(StressScene scene, const StressView& view, const P
         LightDescription half;
         half.kind = LightDescription::Kind::distant;
         half.direction = V3d(0.1, 0.2, 1) * z;
-        half.irradiance = Color(static_cast<float>(pi));
+        half.irradiance = Color(static_cast<Real>(pi));
         half.angle = 180;
         scene.description.lights.push_back(half);
     }

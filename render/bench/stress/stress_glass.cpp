@@ -62,12 +62,12 @@ void add_glass_cases(StressRun& run)
                 const bool quick = kind == IntegratorKind::ept && absorption == 0.5;
                 run.add(fmt::format("index {}, absorption {:g}, {}", ior, absorption, name_of(kind)), quick ? StressExtent::quick : StressExtent::full, [&] {
                     StressScene scene = scene_from_above(pixels, 2, 3);
-                    add_type(scene, "glass", glass_material(ior, 0, Color(static_cast<float>(absorption))));
+                    add_type(scene, "glass", glass_material(ior, 0, Color(static_cast<Real>(absorption))));
                     scene.grains.push_back({V3d(0), 1, 0, {1, 0, 0, 0}});
                     add_constant(scene, Color(1));
                     const StressView view{.kind = kind, .accuracy = Accuracy::standard, .spp = 1024};
                     const StressPicture picture = StressStage(scene, {}, view, run.progress()).render(view, run.progress());
-                    StressFinding finding = compare_truth(picture.film, sphere_picture(pixels, ior, static_cast<float>(absorption)), 4, kind == IntegratorKind::ppt ? 0.02 : 0.001);
+                    StressFinding finding = compare_truth(picture.film, sphere_picture(pixels, ior, static_cast<Real>(absorption)), 4, kind == IntegratorKind::ppt ? 0.02 : 0.001);
                     finding.count(picture.statistics);
                     return finding;
                 });

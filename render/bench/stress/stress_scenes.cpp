@@ -83,7 +83,7 @@ void add_medium(StressScene& scene, const std::string& mesh, double sigma_t, con
 {
     MediumDescription medium;
     medium.mesh = mesh;
-    medium.sigma_t = Color(static_cast<float>(sigma_t));
+    medium.sigma_t = Color(static_cast<Real>(sigma_t));
     medium.albedo = albedo;
     medium.g = g;
     scene.description.media.push_back(medium);

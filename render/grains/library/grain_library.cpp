@@ -28,7 +28,7 @@ Material dielectric(double ior, double roughness, const Color& absorption_per_mm
     material.kind = MaterialKind::dielectric;
     material.ior = ior;
     material.alpha = roughness * roughness;
-    material.absorption = 1000.0f * absorption_per_mm;
+    material.absorption = Real(1000) * absorption_per_mm;
     return material;
 }
 
