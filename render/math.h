@@ -25,13 +25,17 @@ using Real = float;
 /// Light, and the weights that multiply it. Single precision, but in a build that checks it against double (SCREE_DOUBLE).
 using Color = Imath::Color3<Real>;
 
+/// Weight of a path, and what a scattering leaves of it: of an albedo near 1 single precision keeps little of 1 - albedo (at 1 - 1e-8 nothing).
+using Weight = Imath::Color3<double>;
+
 inline constexpr double pi = std::numbers::pi;
 
-inline Real max_component(const Color& c) { return std::max({c.x, c.y, c.z}); }
+template <class T>
+T max_component(const Imath::Color3<T>& c) { return std::max({c.x, c.y, c.z}); }
 inline double luminance(const Color& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; } // Rec. 709
 inline bool is_black(const Color& c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 
-inline Color exp(const Color& c) { return {std::exp(c.x), std::exp(c.y), std::exp(c.z)}; }
+inline Weight exp(const Weight& c) { return {std::exp(c.x), std::exp(c.y), std::exp(c.z)}; }
 
 /// sqrt of what rounding may have made slightly negative.
 inline double safe_sqrt(double x) { return std::sqrt(std::max(0.0, x)); }

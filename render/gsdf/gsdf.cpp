@@ -152,14 +152,14 @@ uint32_t Gsdf::pick(uint32_t stratum, uint32_t cell, double u) const
     return data_.first[i] + std::min(count - 1, static_cast<uint32_t>(u * count));
 }
 
-Color Gsdf::weight(uint32_t number, const Material& material, double radius) const
+Weight Gsdf::weight(uint32_t number, const Material& material, double radius) const
 {
     const GsdfRecord& r = data_.records[number];
-    Color weight = data_.weights.empty() ? Color(1) : Color(data_.weights[number]);
-    const Color& each = material.kind == MaterialKind::lambert ? material.reflectance : material.tint;
-    const auto events = static_cast<Real>(r.events);
-    if (each != Color(1)) weight *= Color(std::pow(each.x, events), std::pow(each.y, events), std::pow(each.z, events));
-    if (material.transmits() && !is_black(material.absorption)) weight *= exp(material.absorption * (-r.length * static_cast<Real>(radius)));
+    Weight weight = data_.weights.empty() ? Weight(1) : Weight(data_.weights[number]);
+    const Weight each = material.kind == MaterialKind::lambert ? material.reflectance : material.tint;
+    const double events = r.events;
+    if (each != Weight(1)) weight *= Weight(std::pow(each.x, events), std::pow(each.y, events), std::pow(each.z, events));
+    if (material.transmits() && !is_black(material.absorption)) weight *= exp(Weight(material.absorption) * (-r.length * radius));
     return weight;
 }
 

@@ -87,7 +87,7 @@ public:
     std::span<const GsdfRecord> records(uint32_t stratum, uint32_t cell) const;
     const GsdfRecord& record(uint32_t number) const { return data_.records[number]; }
     /// What a record's path keeps of light in a grain of this material and radius (in the material's units).
-    Color weight(uint32_t number, const Material& material, double radius) const;
+    Weight weight(uint32_t number, const Material& material, double radius) const;
 
     /// Probability that an encounter that is uniform in q falls into the stratum, given that it scatters.
     double stratum_mass(uint32_t stratum) const { return stratum_mass_[stratum]; }

@@ -127,17 +127,17 @@ bool Path::handle_interface(const Hit& hit)
 
 bool Path::survives()
 {
-    const double w = max_component(weight_ * spectral_.weight());
+    const double w = max_component(weight_ * Weight(spectral_.weight()));
     if (w <= 0) return false;
     if (w >= 1 || depth_ < 3) return true;
     if (sampler_.next() >= w) return false;
-    weight_ *= static_cast<Real>(1 / w);
+    weight_ *= 1 / w;
     return true;
 }
 
-Color Path::transmittance(const Material& medium, double length)
+Weight Path::transmittance(const Material& medium, double length)
 {
-    return is_black(medium.absorption) ? Color(1) : exp(medium.absorption * static_cast<Real>(-length));
+    return is_black(medium.absorption) ? Weight(1) : exp(Weight(medium.absorption) * -length);
 }
 
 void Path::note_first(const Hit& hit, const Material& material)

@@ -43,7 +43,7 @@ private:
     /// The same within the regions: there may be a medium in place of the grains.
     GrainDetail detail(RegionSet regions) const { return media_ && (regions & media_->instead_of_grains()) != 0 ? GrainDetail::none : detail(); }
     const Material& material_of(const Place& grain) const { return world_.types[grain.type].material; }
-    static Color transmittance(const Material& medium, double length);
+    static Weight transmittance(const Material& medium, double length);
     void attenuate(const Material* medium, double length)
     {
         if (medium) weight_ *= transmittance(*medium, length);
@@ -132,7 +132,7 @@ private:
     uint64_t last_grain_ = std::numeric_limits<uint64_t>::max(); // the last met as it is
     uint32_t explicit_left_;   // grains that may still be met as they are
     const Material* surrounding_ = nullptr; // of the dielectric surface the path is inside of, outside grains
-    Color weight_{1};
+    Weight weight_{1};
     Scattering last_;
     RegionSet regions_ = 0;    // that the path is in
     Crossing crossing_;        // the last on this ray, if crossed_

@@ -70,7 +70,7 @@ void Path::add_proxy_light(const Hit& hit, const Encounter& encounter, uint32_t 
     if (!(density > 0)) return;
     const uint32_t cell = DirectionGrid::cell(DirectionGrid::angles(w));
     const uint32_t number = gsdf.pick(stratum, cell, sampler_.next());
-    Color kept = gsdf.weight(number, type.material, sphere.radius);
+    Weight kept = gsdf.weight(number, type.material, sphere.radius);
     if (is_black(kept)) return;
     const V3d exit = sphere.centre + sphere.radius * encounter.to_world(gsdf.record(number).point.unpack());
     double distance = light.distance;
@@ -83,7 +83,7 @@ void Path::add_proxy_light(const Hit& hit, const Encounter& encounter, uint32_t 
     const RegionSet regions = media_ ? media_->after(regions_, hit.point, exit) : 0;
     const Color passed = passing(exit, light.direction, distance, hit.place, light.light, regions);
     if (is_black(passed) || tracer_.surface_between(hit.point, exit).place.kind == HitKind::surface) return;
-    add_light_sample(light, distance, kept * static_cast<Real>(density), gsdf.cell_density(stratum, cell), passed);
+    add_light_sample(light, distance, kept * density, gsdf.cell_density(stratum, cell), passed);
 }
 
 } // namespace scree

@@ -53,7 +53,7 @@ std::optional<bool> Path::step_through_shell(Hit& met)
     const ShellExit& exit = shell.shell->exit(sampler_.next());
     const ShellPlace there = place_of(exit);
     const V3d normal = frame.to_world(there.place);
-    weight_ *= shell.ratio(exit.events) * static_cast<Real>(shell.shell->survival());
+    weight_ *= Weight(shell.ratio(exit.events)) * shell.shell->survival();
     if (!survives()) return false;
     met.point = o_ + shell.length * normal;
     if (is_full || exit.events == 1) {
@@ -76,7 +76,7 @@ bool Path::diffuse_through(const FittingShell& shell, Hit& met)
         const double flux = kappa * shell.radius * std::cosh(kappa * beyond) + std::sinh(kappa * beyond);
         return x > 1e-8 ? flux / std::sinh(x) : 1.0;
     };
-    weight_ *= Color(static_cast<Real>(left(shell.albedo.x)), static_cast<Real>(left(shell.albedo.y)), static_cast<Real>(left(shell.albedo.z)));
+    weight_ *= Weight(left(shell.albedo.x), left(shell.albedo.y), left(shell.albedo.z));
     if (!survives()) return false;
     met.point = o_ + shell.length * normal;
     const bool lit = world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only;
@@ -117,7 +117,7 @@ double Path::first_flight(const FittingShell& shell)
 
 void Path::add_single_light(const FittingShell& shell, double weight)
 {
-    add_phase_light(o_ + first_flight(shell) * d_, d_, shell.phase, shell.albedo * static_cast<Real>(weight));
+    add_phase_light(o_ + first_flight(shell) * d_, d_, shell.phase, shell.albedo * weight);
 }
 
 void Path::add_phase_light(const V3d& place, const V3d& before, const PhaseFunction& phase, const Color& weight)

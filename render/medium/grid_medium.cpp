@@ -353,7 +353,7 @@ Color GridMedium::sigma_t(const V3d& p) const
     return {static_cast<Real>(sigma[0]), static_cast<Real>(sigma[1]), static_cast<Real>(sigma[2])};
 }
 
-Color GridMedium::albedo(const V3d& p) const { return data_->albedo_at(p); }
+Weight GridMedium::albedo(const V3d& p) const { return data_->albedo_at(p); }
 double GridMedium::g(const V3d& p) const { return data_->g_at(p); }
 
 } // namespace scree

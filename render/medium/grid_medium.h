@@ -12,7 +12,7 @@ namespace scree {
 /// How the numbers of the grids are to be read.
 struct GridMediumOptions {
     Color scale{1};         ///< sigma_t = scale * density, per unit of length of the scene
-    Color albedo{1};        ///< where there is no albedo grid
+    Weight albedo{1};       ///< where there is no albedo grid
     double g = 0;         ///< where there is no grid of g
     bool nearest = false; ///< no interpolation: sigma_t, albedo and g are constant over a voxel
 };
@@ -45,7 +45,7 @@ public:
     double voxel() const; ///< shortest edge of a voxel of the density
     /// Anywhere; sigma_t per channel.
     Color sigma_t(const V3d& p) const;
-    Color albedo(const V3d& p) const;
+    Weight albedo(const V3d& p) const;
     double g(const V3d& p) const;
 
 private:

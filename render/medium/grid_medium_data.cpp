@@ -39,12 +39,12 @@ void GridMediumData::prepare()
     }
 }
 
-Color GridMediumData::albedo_at(const V3d& p) const
+Weight GridMediumData::albedo_at(const V3d& p) const
 {
     if (!has_albedo) return options.albedo;
     const std::array<double, 3> a = albedo.at(p);
     const bool one = albedo.field.planes == 1;
-    const auto clamped = [](double x) { return static_cast<Real>(std::min(std::max(x, 0.0), 1.0)); };
+    const auto clamped = [](double x) { return std::min(std::max(x, 0.0), 1.0); };
     return {clamped(a[0]), clamped(a[one ? 0 : 1]), clamped(a[one ? 0 : 2])};
 }
 

@@ -54,7 +54,7 @@ struct GridMediumData {
         const bool one = density.field.planes == 1;
         return {scale[0] * density_there[0], scale[1] * density_there[one ? 0 : 1], scale[2] * density_there[one ? 0 : 2]};
     }
-    Color albedo_at(const V3d& p) const;
+    Weight albedo_at(const V3d& p) const;
     double g_at(const V3d& p) const;
 };
 

@@ -9,7 +9,7 @@ namespace scree {
 struct MediumEvent {
     bool scattered = false;
     double t = 0;    ///< along the ray, if it scattered
-    Color albedo{1};   ///< there: part of the light that is not absorbed
+    Weight albedo{1}; ///< there: part of the light that is not absorbed
     PhaseFunction phase; ///< there
 };
 
@@ -17,7 +17,7 @@ struct MediumEvent {
 /// balance heuristic (Wilkie et al. 2014, hero wavelength sampling): a channel counts ratio / mean(ratio).
 struct SpectralState {
     uint32_t hero = 0; ///< channel
-    Color ratio{1};      ///< density of this walk, had another channel been the hero, over its density
+    Color ratio{1};    ///< density of this walk, had another channel been the hero, over its density
 
     void multiply(const Color& factor)
     {

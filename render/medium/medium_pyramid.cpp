@@ -49,8 +49,8 @@ MediumPyramid::Cell MediumPyramid::cell_at(const GridMedium& medium, const V3d& 
 {
     Cell cell;
     cell.sigma_t = medium.sigma_t(place).x;
-    const Color albedo = medium.albedo(place);
-    for (unsigned c = 0; c < 3; ++c) cell.scattered[c] = cell.sigma_t * albedo[c];
+    const Weight albedo = medium.albedo(place);
+    for (unsigned c = 0; c < 3; ++c) cell.scattered[c] = static_cast<Real>(cell.sigma_t * albedo[c]);
     cell.forward = static_cast<Real>(cell.brightest() * medium.g(place));
     cell.forget_range();
     cell.forget_squares();
@@ -161,7 +161,7 @@ bool MediumPyramid::is_same(const V3d& centre, double radius, MediumMean& mean) 
     const double sigma = ball.sigma_t, brightest = ball.brightest();
     if (!(sigma > 0 && brightest > 0)) return false;
     mean.sigma_t = sigma;
-    for (unsigned c = 0; c < 3; ++c) mean.albedo[c] = static_cast<Real>(std::min(extremes_.albedo_high, ball.scattered[c] / sigma));
+    for (unsigned c = 0; c < 3; ++c) mean.albedo[c] = std::min<double>(extremes_.albedo_high, ball.scattered[c] / sigma);
     mean.g = ball.forward / brightest;
     const double loss = 1 - brightest / sigma, back = 1 - mean.g;
     constexpr double rounded = 1e-6; // what sums in single precision are off by; all have no unit

@@ -12,7 +12,7 @@ namespace scree {
 /// What a medium is in the mean over a part of it.
 struct MediumMean {
     double sigma_t = 0;
-    Color albedo{1}; ///< by what it scatters
+    Weight albedo{1}; ///< by what it scatters
     double g = 0;  ///< likewise
 };
 

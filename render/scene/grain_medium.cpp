@@ -251,7 +251,7 @@ std::optional<double> replace_grains(const GrainMedium& medium, const GrainDepth
         uint64_t bytes = surface->triangles.size() * sizeof(surface->triangles[0]) + surface->positions.size() * sizeof(V3f);
         if (!world.fill) region.grid = medium_of_list(world, media, progress);
         else if (is_patterned(world, medium.sample)) region.grid = medium_of_fill(world, *surface, media, progress);
-        else region.homogeneous = std::make_shared<HomogeneousMedium>(V3d(medium.medium.sigma_t), Color(medium.medium.albedo), medium.medium.g);
+        else region.homogeneous = std::make_shared<HomogeneousMedium>(V3d(medium.medium.sigma_t), Weight(medium.medium.albedo), medium.medium.g);
         if (region.grid) bytes += region.grid->bytes();
         region.positions = std::move(surface->positions);
         region.triangles = std::move(surface->triangles);

@@ -88,7 +88,7 @@ struct AssemblyDescription {
 struct MediumDescription {
     std::filesystem::path mesh, vdb;   ///< one of them
     Color sigma_t{1};                    ///< mesh: extinction per unit of length; vdb: the same for a density of 1
-    Color albedo{1};
+    Weight albedo{1};
     double g = 0;                      ///< of Henyey and Greenstein
     std::string density = "density";   ///< vdb: names of grids
     std::string albedo_grid, g_grid;   ///< vdb: empty where it is the same everywhere

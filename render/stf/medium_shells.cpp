@@ -8,13 +8,13 @@ constexpr double least_albedo = 0.8; ///< that samplers are made for, where it v
 constexpr double albedo_step = 2;  ///< of -log(albedo), where it varies
 
 /// The albedos, growing, that records are drawn by in a medium of varying albedo: the last is not below any of it.
-std::vector<Real> sampled_albedos(Real low, Real high)
+std::vector<double> sampled_albedos(double low, double high)
 {
     if (low == high) return {high};
-    std::vector<Real> albedos{high};
-    const double end = -std::log(std::max(double{low}, least_albedo));
-    double depth = std::max(-std::log(double{high}), 1e-4);
-    for (depth *= albedo_step; depth < end; depth *= albedo_step) albedos.insert(albedos.begin(), static_cast<Real>(std::exp(-depth)));
+    std::vector<double> albedos{high};
+    const double end = -std::log(std::max(low, least_albedo));
+    double depth = std::max(-std::log(high), 1e-4);
+    for (depth *= albedo_step; depth < end; depth *= albedo_step) albedos.insert(albedos.begin(), std::exp(-depth));
     return albedos;
 }
 
@@ -35,9 +35,9 @@ MediumShells::MediumShells(std::vector<std::shared_ptr<const Stf>> stfs, std::un
     : form_(form), stfs_(std::move(stfs)), grid_(std::move(medium))
 {
     const MediumPyramid::Extremes& extremes = grid_->extremes();
-    albedos_ = sampled_albedos(static_cast<Real>(std::clamp(extremes.albedo_low, 0.0, 1.0)), static_cast<Real>(std::clamp(extremes.albedo_high, 0.0, 1.0)));
+    albedos_ = sampled_albedos(std::clamp(extremes.albedo_low, 0.0, 1.0), std::clamp(extremes.albedo_high, 0.0, 1.0));
     for (const auto& stf : stfs_) {
-        for (const Real albedo : albedos_) add_samplers(*stf, albedo, count);
+        for (const double albedo : albedos_) add_samplers(*stf, albedo, count);
         bytes_ += stf->bytes();
     }
     bytes_ += grid_->bytes();
@@ -115,7 +115,7 @@ bool MediumShells::fit_in_grid(const V3d& place, double clear, double u, Fitting
             u = u < part ? u / part : (u - part) / (1 - part); // to be used again
         }
         fitting.phase = stfs_[of]->phase;
-        const Real brightest = max_component(fitting.albedo);
+        const double brightest = max_component(fitting.albedo);
         size_t albedo = static_cast<size_t>(std::ranges::lower_bound(albedos_, brightest) - albedos_.begin());
         albedo = std::min(albedo, albedos_.size() - 1);
         fitting.sampled_albedo = albedos_[albedo];

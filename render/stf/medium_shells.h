@@ -15,16 +15,16 @@ struct FittingShell {
     double length = 0;     ///< radius
     double radius = 0;     ///< in mean free paths
     double sigma_t = 0;
-    Color albedo{1};
-    Real sampled_albedo = 1; ///< that the shell's records are drawn by; no channel's is larger
+    Weight albedo{1};
+    double sampled_albedo = 1; ///< that the shell's records are drawn by; no channel's is larger
     PhaseFunction phase; ///< that its records were drawn from
 
     /// What a record of so many scatterings counts per channel, over what the sampled albedo's does.
     Color ratio(uint32_t events) const
     {
-        const auto of = [&](Real a) {
+        const auto of = [&](double a) {
             if (a == sampled_albedo) return Real(1);
-            return a > 0 ? static_cast<Real>(std::exp(events * std::log(double{a} / sampled_albedo))) : Real(0);
+            return a > 0 ? static_cast<Real>(std::exp(events * std::log(a / sampled_albedo))) : Real(0);
         };
         return {of(albedo.x), of(albedo.y), of(albedo.z)};
     }
@@ -60,7 +60,7 @@ private:
     uint64_t bytes_ = 0;
     std::vector<std::shared_ptr<const Stf>> stfs_;
     std::vector<Samplers> samplers_; ///< by stf, and within by albedo
-    std::vector<Real> albedos_;      ///< that they are for, growing
+    std::vector<double> albedos_;    ///< that they are for, growing
     FittingShell everywhere_;        ///< of a homogeneous medium
     std::unique_ptr<const MediumPyramid> grid_;
 };

@@ -16,7 +16,7 @@ StressScene cube_of_medium(double optical_radius, double albedo, double g)
 {
     StressScene scene = scene_from_above(8, 0.125, 3);
     scene.meshes["cube.obj"] = cube_mesh(1);
-    add_medium(scene, "cube.obj", optical_radius, Color(static_cast<Real>(albedo)), g);
+    add_medium(scene, "cube.obj", optical_radius, Weight(albedo), g);
     add_constant(scene, Color(1));
     return scene;
 }
@@ -26,7 +26,7 @@ StressScene ball_of_medium(double optical_radius, double albedo, double g)
 {
     StressScene scene = empty_scene(24, 18, V3d(-3, -3.5, 2.5), V3d(0), 35);
     scene.meshes["ball.obj"] = ball_mesh(1, 2);
-    add_medium(scene, "ball.obj", optical_radius, Color(static_cast<Real>(albedo)), g);
+    add_medium(scene, "ball.obj", optical_radius, Weight(albedo), g);
     add_day(scene);
     return scene;
 }
@@ -72,7 +72,7 @@ Placing askew()
 StressFinding against_half_space(double optical_radius, double albedo, const StressView& view, double bias, const Progress& progress, const Placing& placing = {})
 {
     const StressPicture picture = StressStage(cube_of_medium(optical_radius, albedo, 0), placing, view, progress).render(view, progress);
-    StressFinding finding = compare_truth(picture.film, std::vector<double>(picture.film.pixels().size(), half_space_radiance(static_cast<Real>(albedo))), 4, bias);
+    StressFinding finding = compare_truth(picture.film, std::vector<double>(picture.film.pixels().size(), half_space_radiance(albedo)), 4, bias);
     finding.count(picture.statistics);
     finding.remark += fmt::format("; longest path {} segments", finding.longest);
     return finding;
@@ -101,7 +101,7 @@ StressFinding two_ways(const StressScene& scene, const StressView& one, const St
 
 void add_medium_cases(StressRun& run)
 {
-    run.begin("media, furnace", "a lossless cube of medium in a surrounding of 1 with 1", "1e-6 an optical radius of 16: albedos are floats, 1 - 1e-12 is 1");
+    run.begin("media, furnace", "a lossless cube of medium in a surrounding of 1 with 1", "1e-6 an optical radius of 16; so little is lost that no sample sees it");
     for (const IntegratorKind kind : medium_kinds) {
         for (const double g : {0.0, 0.999, -0.999}) {
             run.add(fmt::format("albedo 1 - 1e-12, g {}, {}", g, name_of(kind)), kind == IntegratorKind::vpt ? StressExtent::quick : StressExtent::full, [&] {

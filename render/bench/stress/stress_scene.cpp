@@ -16,7 +16,8 @@ namespace {
 using nlohmann::json;
 
 json numbers(const V3d& v) { return {v.x, v.y, v.z}; }
-json numbers(const Color& c) { return {c.x, c.y, c.z}; }
+template <class T>
+json numbers(const Imath::Color3<T>& c) { return {c.x, c.y, c.z}; }
 
 json material_json(const Material& material, double scale)
 {

@@ -79,7 +79,7 @@ void add_type(StressScene& scene, const std::string& name, const Material& mater
     scene.description.types.push_back(type);
 }
 
-void add_medium(StressScene& scene, const std::string& mesh, double sigma_t, const Color& albedo, double g)
+void add_medium(StressScene& scene, const std::string& mesh, double sigma_t, const Weight& albedo, double g)
 {
     MediumDescription medium;
     medium.mesh = mesh;

@@ -13,7 +13,7 @@ void add_constant(StressScene& scene, const Color& radiance);
 /// A bright sky, a wide sun and a rectangle of light: what shows a turn, and makes no single bright samples.
 void add_day(StressScene& scene);
 void add_type(StressScene& scene, const std::string& name, const Material& material, const std::string& mesh = "");
-void add_medium(StressScene& scene, const std::string& mesh, double sigma_t, const Color& albedo, double g);
+void add_medium(StressScene& scene, const std::string& mesh, double sigma_t, const Weight& albedo, double g);
 
 /// 48 grains that overlap by some per cent: glass, matte, cubes and rough gems, over a floor.
 StressScene mixed_scene(const Progress& progress);
