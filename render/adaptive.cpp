@@ -77,6 +77,8 @@ void estimate_tiles(Film& film, AdaptivePlan& plan)
                 ++estimate.pixels;
                 estimate.sum += film.halves()[i].judge(half, state.counts).mean();
             });
+            const double samples = static_cast<double>(estimate.pixels) * film.tile_states().level;
+            estimate.work = std::max(1.0, static_cast<double>(state.work[static_cast<size_t>(half)]) / samples);
         });
         const RelativeError measure(plan.mean(half)); // needs all tiles
         each_judged([&](int tile, TileState& state) { estimate_variance(film, tile, half, measure, state); });
@@ -119,7 +121,7 @@ bool AdaptivePlan::finished() const
     return std::ranges::none_of(states_.tiles, [](const TileState& tile) { return tile.counts.going(); });
 }
 
-uint32_t AdaptivePlan::least_samples(double error) 
+uint32_t AdaptivePlan::least_samples(double error)
 {
     return static_cast<uint32_t>(std::ceil(std::clamp(1 / error, 8.0, 1e6)));
 }
@@ -143,7 +145,7 @@ V3d AdaptivePlan::mean(int half) const
 /// Samples of each half that every tile should have by what one half knows.
 std::vector<double> AdaptivePlan::wanted(int half) const
 {
-    std::vector<double> roots;
+    std::vector<double> samples, variances;
     double sum = 0, pixels = 0;
     for (int row = 0; row < rows_; ++row) {
         for (int column = 0; column < columns_; ++column) {
@@ -158,17 +160,18 @@ std::vector<double> AdaptivePlan::wanted(int half) const
             const TileEstimate& own = states_.tiles[static_cast<size_t>(row * columns_ + column)].estimates[static_cast<size_t>(half)];
             // A standard error more than was seen: who stops at the first low estimate stops too early.
             const double variance = std::max(own.variance + own.deviation, count > 0 ? neighbours * around / count : 0);
-            roots.push_back(std::sqrt(variance));
-            sum += roots.back() * static_cast<double>(own.pixels);
+            variances.push_back(variance);
+            samples.push_back(std::sqrt(variance / own.work));
+            sum += std::sqrt(variance * own.work) * static_cast<double>(own.pixels);
             pixels += static_cast<double>(own.pixels);
         }
     }
-    const double mean_root = pixels > 0 ? sum / pixels : 0;
-    for (double& root : roots) {
-        const double least = root * root / (worst_tile * worst_tile); // both halves together have twice the samples
-        root = std::max(root * mean_root, least) / (2 * error_ * error_);
+    const double scale = pixels > 0 ? sum / pixels : 0;
+    for (size_t i = 0; i < samples.size(); ++i) {
+        const double least = variances[i] / (worst_tile * worst_tile);
+        samples[i] = std::max(samples[i] * scale, least) / (2 * error_ * error_); // both halves together have twice the samples
     }
-    return roots;
+    return samples;
 }
 
 void AdaptivePlan::decide()

@@ -15,8 +15,9 @@ namespace scree {
 /// depends on the other half only, and its mean over them is unbiased. Samples a half draws past its count, because the
 /// other one still needs its judgement, are not in the picture. Biased if done in one: Kirk and Arvo 1991.
 ///
-/// The mean error over the picture is reached with the least samples when a tile gets them by the root of its variance
-/// (Neyman); but no tile is left above twice the error.
+/// The mean error over the picture is reached with the least work when a tile gets samples by the root of its variance over
+/// what one of them costs (Neyman 1934); but no tile is left above twice the error. Costs are steps of paths, not seconds: the same
+/// seed draws the same samples on every machine.
 class AdaptivePlan {
 public:
     /// Works on, and goes on from, the states of rows of tiles. error: relative, as the root of the mean of RelativeError

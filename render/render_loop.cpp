@@ -21,6 +21,9 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 bool finite(const Color& c) { return std::isfinite(c.x + c.y + c.z); }
 
+/// What a sample cost, in steps that take about as long as each other.
+uint64_t work_of(const PathResult& path) { return uint64_t{path.segments} + path.shadow_rays + path.events + path.shells; }
+
 void count(const PathResult& path, RenderStatistics& part)
 {
     ++part.paths;
@@ -141,7 +144,7 @@ private:
     bool run_tile(int tile, uint32_t target, const Stop& stop, RenderStatistics& part)
     {
         const int x0 = film_.x0() + tile % film_.tile_columns() * Film::tile_size, y0 = film_.y0() + tile / film_.tile_columns() * Film::tile_size;
-        const HalfCounts* halves = film_.halves().empty() ? nullptr : &film_.tile_states().tiles[static_cast<size_t>(tile)].counts;
+        TileState* state = film_.halves().empty() ? nullptr : &film_.tile_states().tiles[static_cast<size_t>(tile)];
         for (int y = y0; y < std::min(y0 + Film::tile_size, film_.y1()); ++y) {
             if (stop()) return false;
             for (int x = x0; x < std::min(x0 + Film::tile_size, film_.x1()); ++x) {
@@ -155,9 +158,10 @@ private:
                         return false;
                     }
                     count(path, part);
+                    if (state) state->work[s & 1] += work_of(path);
                     if (finite(path.radiance)) {
                         pixel.add(path.radiance, path.first);
-                        if (halves) film_.halves_at(x, y).add(s, path.radiance, *halves);
+                        if (state) film_.halves_at(x, y).add(s, path.radiance, state->counts);
                     } else {
                         ++part.non_finite;
                         if (!part.first_non_finite) part.first_non_finite = SamplePlace{x, y, s};

@@ -34,7 +34,7 @@ std::vector<T> read_all(std::ifstream& in, const std::vector<T>& like)
 
 /// The head of the file: everything that must agree, in the machine's own byte order and layout.
 struct Head {
-    std::array<char, 8> magic{'s', 'c', 'r', 'e', 'e', 'c', 'k', '2'};
+    std::array<char, 8> magic{'s', 'c', 'r', 'e', 'e', 'c', 'k', '3'};
     uint64_t scene_hash, seed, pixel_bytes = sizeof(Pixel), halves; ///< halves: how many pixels have them
     std::array<int32_t, 6> window;
 

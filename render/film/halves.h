@@ -58,11 +58,13 @@ struct TileEstimate {
     V3d sum{0};           ///< of the pixels' means
     double variance = 0;  ///< of one sample, relative (RelativeError), mean over the pixels
     double deviation = 0; ///< standard error of `variance`
+    double work = 1;      ///< of one sample, mean over the pixels
 };
 
 /// A tile: what counts of its halves and what these said last. estimates[h] is of half h, which decides on the other one.
 struct TileState {
     HalfCounts counts;
+    std::array<uint64_t, 2> work{0, 0}; ///< of all samples of each half, counted or not: steps of their paths
     std::array<TileEstimate, 2> estimates;
 };
 

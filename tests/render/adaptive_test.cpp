@@ -173,6 +173,32 @@ TEST(Adaptive, GivesTilesByTheRootOfTheirVarianceAndLooksAround)
     EXPECT_FALSE(states.tiles[4].counts.going()) << "nothing there nor around";
 }
 
+TEST(Adaptive, GivesTilesByTheRootOfWhatTheirSamplesCost)
+{
+    TileStates states;
+    states.tiles.resize(2);
+    states.level = 200; // of each half; wanted at 5 %: (1 + 2) / 2 / sqrt(work) / (2 * 0.05^2), 300 and 150
+    AdaptivePlan plan(states, 2, 0.05);
+    for (TileEstimate& estimate : states.tiles[0].estimates) estimate = {256, V3d(256), 1, 0, 1};
+    for (TileEstimate& estimate : states.tiles[1].estimates) estimate = {256, V3d(256), 1, 0, 4};
+    plan.decide();
+    EXPECT_TRUE(states.tiles[0].counts.going());
+    EXPECT_FALSE(states.tiles[1].counts.going());
+}
+
+TEST(Adaptive, GoesOnWhereOnlyPartOfAPictureIsAskedFor)
+{
+    const TemporaryFolder folder;
+    const std::string scene = standard_scene().write(folder);
+    const Picture part = render_picture(scene, [](RenderJob& job) {
+        job.spp = 100000;
+        job.options.error = 0.2;
+        job.pixel_bounds = {3, 22, 5, 16}; // no whole tile
+    });
+    EXPECT_LT(part.numbers.at("relativeError"), 0.25);
+    EXPECT_GT(*std::ranges::min_element(part.integers.at("samples")), 0);
+}
+
 TEST(Adaptive, IsTheSamePictureWithAnyThreadsAndResumed)
 {
     const TemporaryFolder folder;

@@ -187,11 +187,11 @@ TEST(GrainMedium, OfAFillVariesAsItsMixtureDoes)
     ASSERT_NE(board.regions[0].grid, nullptr);
     // Pure types in the middles of the cells: those of the homogeneous media.
     const GridMedium& grid = *board.regions[0].grid;
-    const std::array<float, 2> albedo{grid.albedo({20, 20, 20}).x, grid.albedo({-20, 20, 20}).x};
+    const std::array<double, 2> albedo{grid.albedo({20, 20, 20}).x, grid.albedo({-20, 20, 20}).x};
     EXPECT_NEAR(std::max(albedo[0], albedo[1]), 1, 1e-5);
     EXPECT_NEAR(std::min(albedo[0], albedo[1]), 0.5, 1e-5);
-    const float inner = same.regions[0].homogeneous->albedo().x;
-    EXPECT_TRUE(inner == 1 || std::abs(inner - 0.5f) < 1e-5f) << inner;
+    const double inner = same.regions[0].homogeneous->albedo().x;
+    EXPECT_TRUE(inner == 1 || std::abs(inner - 0.5) < 1e-5) << inner;
 }
 
 } // namespace
