@@ -85,10 +85,13 @@ void estimate_tiles(Film& film, AdaptivePlan& plan)
     }
 }
 
-ErrorClaim claimed_error(const Film& film)
+std::optional<ErrorClaim> claimed_error(const Film& film)
 {
     V3d mean(0);
-    for (const PixelHalves& pixel : film.halves()) mean += pixel.mean();
+    for (const PixelHalves& pixel : film.halves()) {
+        if (pixel.half(0).samples + pixel.half(1).samples < 2) return std::nullopt;
+        mean += pixel.mean();
+    }
     const RelativeError measure(mean / static_cast<double>(std::max<size_t>(1, film.halves().size())));
     ErrorClaim claim;
     double total = 0;

@@ -4,6 +4,7 @@
 #include "render/film/relative_error.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace scree {
@@ -63,6 +64,7 @@ struct ErrorClaim {
 };
 
 /// Each half's samples are judged by their own spread, which is unbiased as their number is the other half's choice.
-ErrorClaim claimed_error(const Film& film);
+/// Nothing where a pixel has fewer than two samples.
+std::optional<ErrorClaim> claimed_error(const Film& film);
 
 } // namespace scree

@@ -139,7 +139,7 @@ void add_render_command(CLI::App& app)
     command->add_option("--aov", a.aov, "More channels: albedo,normal,depth,type,id,variance,samples")->delimiter(',');
     command->add_option("-t,--threads", job.threads, "Threads (default: all cores)")->check(CLI::Range(1, 4096));
     command->add_option("--seed", job.options.seed, "Seed of the random numbers")->check(CLI::NonNegativeNumber);
-    command->add_option("--max-depth", job.max_depth, "Cut paths after this many scattering events; darkens the picture (default: never)");
+    command->add_option("--max-depth", job.max_depth, "Cut paths after this many scattering events (a shell of a medium is one); darkens the picture (default: never)");
     command->add_option("--direct-light", a.strategy, "How direct light is found: both, lights or scattering; for tests")
         ->check(CLI::IsMember({"both", "lights", "scattering"}));
     command->add_flag("--resume", job.resume, "Go on from the checkpoint that an interrupted render of the same picture left");

@@ -212,7 +212,7 @@ private:
             if (is_exr(path)) write_exr(path, film, scene_.film.aov, metadata);
             else write_preview(path, film);
         }
-        if (interrupted_ || (report.statistics.timed_out && (job_.spp || job_.resume))) write_checkpoint(checkpoint, film, key);
+        if (interrupted_ || (report.statistics.timed_out && (job_.spp || options.error > 0 || job_.resume))) write_checkpoint(checkpoint, film, key);
         else std::filesystem::remove(checkpoint);
         console_.finish();
         if (job_.stats) fmt::print("{}", statistics_text(report));
@@ -240,7 +240,9 @@ private:
         }
         if (s.cancelled) say(fmt::format("interrupted: the picture holds at least {} samples a pixel; go on with --resume", s.spp));
         else if (s.timed_out) say(fmt::format("stopped by --timeout at {} samples a pixel", s.spp));
-        if (s.error && !s.error_reached) say(fmt::format("--error was not reached: {:.3g}, in the worst tile {:.3g}", s.error->picture, s.error->worst_tile));
+        if (job_.options.error > 0 && !s.error_reached) {
+            say("--error was not reached: " + (s.error ? fmt::format("{:.3g}, in the worst tile {:.3g}", s.error->picture, s.error->worst_tile) : std::string("pixels have too few samples to tell it")));
+        }
         if (s.stopped > 0) say(fmt::format("{} paths were still on their way when time ran out and are left out", s.stopped));
         if (s.cut > 0) say(fmt::format("{} of {} paths were cut by the depth limit: the picture is too dark", s.cut, s.paths));
     }

@@ -21,8 +21,8 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 bool finite(const Color& c) { return std::isfinite(c.x + c.y + c.z); }
 
-/// What a sample cost, in steps that take about as long as each other.
-uint64_t work_of(const PathResult& path) { return uint64_t{path.segments} + path.shadow_rays + path.events + path.shells; }
+/// What a sample cost, in quarters of a ray: about as long does a scattering in a medium take (medium_bench, ept_bench).
+uint64_t work_of(const PathResult& path) { return 4 * (uint64_t{path.segments} + path.shadow_rays + path.shells) + path.events; }
 
 void count(const PathResult& path, RenderStatistics& part)
 {

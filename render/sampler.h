@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace scree {
@@ -53,5 +54,18 @@ private:
     std::array<uint32_t, 4> block_{};
     uint32_t used_ = 4;
 };
+
+/// An exponential of mean 1 whose distribution is as fine at both ends as doubles are.
+///
+/// The sampler's steps of 2^-32 alone would let nothing scatter at optical depths below 1e-10, and none get through 23.
+inline double draw_optical_depth(Sampler& sampler)
+{
+    const double u = sampler.next();
+    constexpr double end = 0x1p-16;
+    if (u < end) return -std::log1p(-(u + (sampler.next() - 0.5) * 0x1p-32));
+    const double v = 1 - u; // exact
+    if (v < end) return -std::log(v + (sampler.next() - 0.5) * 0x1p-32);
+    return -std::log(v);
+}
 
 } // namespace scree

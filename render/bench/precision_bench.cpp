@@ -2,6 +2,8 @@
 // render/bench/compare_precision runs it over scenes. The same seed gives the same paths, but where rounding flips a choice.
 //
 //     precision_bench NAME SINGLE.exr DOUBLE.exr
+//
+// Exit status 1 where the means are farther apart than rounding and chance bring.
 
 #include "ingest/support/error.h"
 #include "render/bench/exr_planes.h"
@@ -38,10 +40,11 @@ try {
     // Choices that rounding flips leave pixels apart by their noise, as often up as down: the standard error is that of the pixels' differences.
     const auto n = static_cast<double>(count);
     const double error = std::sqrt(std::max(0.0, squares / n - sum / n * (sum / n)) / n);
-    const double scale = mean != 0 ? n / mean : 1;
-    fmt::print("{:<44} {:>7.2f} % {:>10.2e} {:>14.8g} {:>+11.2e} {:>9.1e} {:>+7.1f}\n", argv[1], 100 * static_cast<double>(differing) / n, worst, mean / n,
-               sum / n * scale, error * scale, error > 0 ? sum / n / error : 0);
-    return 0;
+    const double off = sum / n, rounding = 1e-6 * mean / n, scale = mean != 0 ? 100 * n / mean : 1;
+    const bool agree = std::abs(off) <= 4 * error + rounding && std::isfinite(mean);
+    fmt::print("{:<44} {:>7.2f} % {:>10.2e} {:>14.8g} {:>+11.1e} % {:>8.1e} % {:>+7.1f}{}\n", argv[1], 100 * static_cast<double>(differing) / n, worst, mean / n,
+               off * scale, error * scale, error > 0 ? off / error : 0, agree ? "" : "  FAILED");
+    return agree ? 0 : 1;
 } catch (const scree::InputError& error) {
     fmt::print(stderr, "precision_bench: {}\n", error.what());
     return 2;

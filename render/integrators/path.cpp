@@ -28,8 +28,9 @@ PathResult Path::run(V3d o, V3d d, std::vector<PathVertex>* trail)
             ++result_.segments;
             alive = handle(hit);
         }
-        if (trail) trail->push_back({start, direction, hit, inside, weight_, result_.radiance});
+        if (trail) trail->push_back({start, direction, hit, inside, weight_, light_});
     }
+    result_.radiance = Color(light_);
     result_.last_direction = d_;
     return result_;
 }
@@ -127,9 +128,10 @@ bool Path::handle_interface(const Hit& hit)
 
 bool Path::survives()
 {
-    const double w = max_component(weight_ * Weight(spectral_.weight()));
+    const double w = max_component(weight_ * spectral_.weight());
     if (w <= 0) return false;
-    if (w >= 1 || depth_ < 3) return true;
+    constexpr double worth_ending = 1 - 0x1p-5; // above, random numbers in steps of 2^-32 would lose what next to no absorption takes
+    if (w >= worth_ending || depth_ < 3) return true;
     if (sampler_.next() >= w) return false;
     weight_ *= 1 / w;
     return true;
@@ -164,7 +166,6 @@ void Path::add_direct_light(const Hit& hit, const Material& material, const Fram
     if (leads_inside) return;
     const Color f = eval_bsdf(material, wo, wi, sampler_);
     if (is_black(f)) return;
-    ++result_.shadow_rays;
     const Color passed = passing(hit.point, light.direction, light.distance, hit.place, light.light, regions_);
     if (!is_black(passed)) add_light_sample(light, light.distance, f, pdf_bsdf(material, wo, wi), passed);
 }

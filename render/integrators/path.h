@@ -104,8 +104,8 @@ private:
     Hit as_proxy(const Hit& hit) const;
     bool handle_medium(const MediumEvent& event, Hit& met);
 
-    void add(const Color& light) { result_.radiance += weight_ * spectral_.weight() * light; }
-    /// Russian roulette: kills with the weight's largest channel, and only what has lost some.
+    void add(const Color& light) { light_ += weight_ * spectral_.weight() * Weight(light); }
+    /// Russian roulette: kills with the weight's largest channel, and only what has lost a part worth it.
     bool survives();
     bool is_cut();
     void note_first(const Hit& hit, const Material& material);
@@ -132,6 +132,7 @@ private:
     uint64_t last_grain_ = std::numeric_limits<uint64_t>::max(); // the last met as it is
     uint32_t explicit_left_;   // grains that may still be met as they are
     const Material* surrounding_ = nullptr; // of the dielectric surface the path is inside of, outside grains
+    Weight light_{0};
     Weight weight_{1};
     Scattering last_;
     RegionSet regions_ = 0;    // that the path is in

@@ -27,7 +27,7 @@ struct PathVertex {
     V3d o, d;          ///< the ray that was traced, render coordinates
     Hit hit;
     bool inside = false;
-    Color weight, radiance; ///< of the path up to here, after the vertex was handled
+    Weight weight, radiance; ///< of the path up to here, after the vertex was handled
 };
 
 struct PathResult {

@@ -79,7 +79,6 @@ void Path::add_proxy_light(const Hit& hit, const Encounter& encounter, uint32_t 
         if (!std::isfinite(distance)) return;
     }
     if (surrounding_) kept *= transmittance(*surrounding_, length_outside(hit.point, exit, gsdf.record(number), sphere.radius));
-    ++result_.shadow_rays;
     const RegionSet regions = media_ ? media_->after(regions_, hit.point, exit) : 0;
     const Color passed = passing(exit, light.direction, distance, hit.place, light.light, regions);
     if (is_black(passed) || tracer_.surface_between(hit.point, exit).place.kind == HitKind::surface) return;

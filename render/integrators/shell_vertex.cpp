@@ -53,7 +53,7 @@ std::optional<bool> Path::step_through_shell(Hit& met)
     const ShellExit& exit = shell.shell->exit(sampler_.next());
     const ShellPlace there = place_of(exit);
     const V3d normal = frame.to_world(there.place);
-    weight_ *= Weight(shell.ratio(exit.events)) * shell.shell->survival();
+    weight_ *= shell.ratio(exit.events) * shell.shell->survival();
     if (!survives()) return false;
     met.point = o_ + shell.length * normal;
     if (is_full || exit.events == 1) {
@@ -107,7 +107,7 @@ void Path::add_event_light(const FittingShell& shell, double scale, double weigh
     const ShellEvent& event = shell.shell->event(sampler_.next());
     const V3d place = o_ + scale * frame.to_world({event.aside, 0, event.along});
     weight *= shell.shell->event_weight() / shell.shell->closeness(event);
-    add_phase_light(place, frame.to_world(V3d(event.direction)), shell.phase, shell.ratio(event.events) * static_cast<Real>(weight));
+    add_phase_light(place, frame.to_world(V3d(event.direction)), shell.phase, Color(shell.ratio(event.events) * weight));
 }
 
 double Path::first_flight(const FittingShell& shell)

@@ -110,4 +110,42 @@ GrainAlbedo grain_albedo(const Gsdf& gsdf, const Material& material, double radi
     return albedo;
 }
 
+GrainAlbedoByRadius::GrainAlbedoByRadius(const Gsdf& gsdf, const Material& material)
+    : absorption_(material.transmits() ? V3d(material.absorption) : V3d(0))
+{
+    constexpr size_t bins = 1000;
+    float longest = 0;
+    for (const GsdfRecord& record : gsdf.data().records) longest = std::max(longest, record.length);
+    width_ = longest > 0 ? double{longest} / bins : 1;
+    bins_.resize(bins + 1);
+    Material clear = material;
+    clear.absorption = Color(0);
+    const auto impacts = stratum_impacts(gsdf);
+    for (uint32_t s = 0; s < Gsdf::strata; ++s) {
+        if (!(impacts[s].mass > 0)) continue;
+        for_each_record(gsdf, s, [&](uint32_t number, const GsdfRecord& record, double mass) {
+            const V3d kept(gsdf.weight(number, clear, 1));
+            const double all = mass * impacts[s].mass, cosine = record.direction.unpack().z, place = record.length / width_;
+            const auto below = std::min(static_cast<size_t>(place), bins - 1);
+            lost_ += all * (V3d(1) - kept);
+            for (const size_t bin : {below, below + 1}) {
+                const double share = all * (bin == below ? 1 - (place - static_cast<double>(below)) : place - static_cast<double>(below));
+                bins_[bin].weight += share * kept;
+                bins_[bin].weighted_cosine += share * cosine * kept;
+            }
+        });
+    }
+}
+
+GrainAlbedo GrainAlbedoByRadius::at(double radius) const
+{
+    GrainAlbedo albedo{V3d(1) - lost_, V3d(0)};
+    for (size_t i = 0; i < bins_.size(); ++i) {
+        const V3d depth = static_cast<double>(i) * width_ * radius * absorption_, absorbed(-std::expm1(-depth.x), -std::expm1(-depth.y), -std::expm1(-depth.z));
+        albedo.weight -= bins_[i].weight * absorbed;
+        albedo.weighted_cosine += bins_[i].weighted_cosine * (V3d(1) - absorbed);
+    }
+    return albedo;
+}
+
 } // namespace scree

@@ -31,4 +31,20 @@ struct GrainAlbedo {
 /// material and radius as for Gsdf::weight.
 GrainAlbedo grain_albedo(const Gsdf& gsdf, const Material& material, double radius);
 
+/// The same of any radius, from one pass over the records: what they weigh before absorption, by how far they went in the grain.
+/// Lengths are kept by the thousandth of the longest, between which weights are split by distance: off by (sigma_a r width)^2 / 8 at most.
+class GrainAlbedoByRadius {
+public:
+    GrainAlbedoByRadius(const Gsdf& gsdf, const Material& material);
+    GrainAlbedo at(double radius) const;
+
+private:
+    struct Bin {
+        V3d weight{0}, weighted_cosine{0};
+    };
+    V3d absorption_, lost_{0}; ///< lost_: at the surface
+    double width_ = 0;         ///< of a bin, in radii
+    std::vector<Bin> bins_;
+};
+
 } // namespace scree

@@ -13,19 +13,6 @@ using Kind = DensityRegion::Kind;
 using Sigma = GridMediumData::Sigma;
 using Cell = std::array<int32_t, 3>;
 
-/// An exponential of mean 1 whose distribution is as fine at both ends as doubles are.
-///
-/// The sampler's steps of 2^-32 alone would let nothing scatter at optical depths below 1e-10, and none get through 23.
-double draw_optical_depth(Sampler& sampler)
-{
-    const double u = sampler.next();
-    constexpr double end = 0x1p-16;
-    if (u < end) return -std::log1p(-(u + (sampler.next() - 0.5) * 0x1p-32));
-    const double v = 1 - u; // exact
-    if (v < end) return -std::log(v + (sampler.next() - 0.5) * 0x1p-32);
-    return -std::log(v);
-}
-
 /// The density along a piece of a ray in one cell: a cubic in 0..1 times its length (three linear factors).
 ///
 /// From its values at 0, 1/3, 2/3 and 1. Its integral is Simpson's 3/8 rule, exact for cubics and a sum of what is not negative.

@@ -13,15 +13,15 @@ MediumEvent HomogeneousMedium::event(double t0, double t1, SpectralState& state,
 {
     const double sigma = sigma_t_[static_cast<int>(state.hero)];
     if (!(sigma > 0) && is_achromatic()) return {};
-    const double t = sigma > 0 ? t0 - std::log(sampler.next()) / sigma : std::numeric_limits<double>::infinity();
+    const double t = sigma > 0 ? t0 + draw_optical_depth(sampler) / sigma : std::numeric_limits<double>::infinity();
     const bool scattered = t < t1;
     if (!is_achromatic()) {
         const double length = (scattered ? t : t1) - t0;
-        Color factor(1);
+        Weight factor(1);
         for (int c = 0; c < 3; ++c) {
             if (sigma_t_[c] == sigma) continue;
             const double ratio = std::exp((sigma - sigma_t_[c]) * length) * (scattered ? sigma_t_[c] / sigma : 1);
-            factor[c] = static_cast<Real>(std::min<double>(ratio, std::numeric_limits<Real>::max()));
+            factor[c] = std::min(ratio, std::numeric_limits<double>::max());
         }
         state.multiply(factor);
     }

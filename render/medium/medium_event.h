@@ -17,14 +17,14 @@ struct MediumEvent {
 /// balance heuristic (Wilkie et al. 2014, hero wavelength sampling): a channel counts ratio / mean(ratio).
 struct SpectralState {
     uint32_t hero = 0; ///< channel
-    Color ratio{1};    ///< density of this walk, had another channel been the hero, over its density
+    Weight ratio{1};   ///< density of this walk, had another channel been the hero, over its density
 
-    void multiply(const Color& factor)
+    void multiply(const Weight& factor)
     {
-        constexpr Real most = 1e30f; // so much likelier for another hero, a walk counts nothing here; but it stays a number
+        constexpr double most = 1e30; // so much likelier for another hero, a walk counts nothing here; but it stays a number
         for (int c = 0; c < 3; ++c) ratio[c] = std::min(ratio[c] * factor[c], most);
     }
-    Color weight() const { return ratio * (3 / (ratio.x + ratio.y + ratio.z)); }
+    Weight weight() const { return ratio * (3 / (ratio.x + ratio.y + ratio.z)); }
 };
 
 } // namespace scree

@@ -17,8 +17,8 @@ void MediumPyramid::Cell::add(const Cell& other, Real weight)
 {
     const bool first = sigma_t == 0 && sigma_high == 0 && back_high == 0;
     sigma_t += weight * other.sigma_t;
-    for (size_t c = 0; c < 3; ++c) scattered[c] += weight * other.scattered[c];
-    forward += weight * other.forward;
+    for (size_t c = 0; c < 3; ++c) lost[c] += weight * other.lost[c];
+    turned += weight * other.turned;
     sigma_square += weight * other.sigma_square;
     loss_square += weight * other.loss_square;
     back_square += weight * other.back_square;
@@ -50,8 +50,8 @@ MediumPyramid::Cell MediumPyramid::cell_at(const GridMedium& medium, const V3d& 
     Cell cell;
     cell.sigma_t = medium.sigma_t(place).x;
     const Weight albedo = medium.albedo(place);
-    for (unsigned c = 0; c < 3; ++c) cell.scattered[c] = static_cast<Real>(cell.sigma_t * albedo[c]);
-    cell.forward = static_cast<Real>(cell.brightest() * medium.g(place));
+    for (unsigned c = 0; c < 3; ++c) cell.lost[c] = static_cast<Real>(cell.sigma_t * (1 - albedo[c]));
+    cell.turned = static_cast<Real>(cell.brightest() * (1 - medium.g(place)));
     cell.forget_range();
     cell.forget_squares();
     return cell;
@@ -64,7 +64,7 @@ MediumPyramid::MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, 
     origin_ = box.min;
     width_ = std::max(medium.voxel(), std::cbrt(extent.x * extent.y * extent.z / most_cells));
     const int samples = std::clamp(static_cast<int>(std::ceil(width_ / (finest_samples * medium.voxel()))), 2, 64);
-    const Real share = 1 / static_cast<Real>(samples * samples * samples);
+    const Real share = 1 / static_cast<Real>(samples);
     Level first;
     for (int k = 0; k < 3; ++k) first.size[static_cast<size_t>(k)] = static_cast<int64_t>(std::ceil(extent[k] / width_));
     first.cells.resize(static_cast<size_t>(first.size[0] * first.size[1] * first.size[2]));
@@ -74,10 +74,19 @@ MediumPyramid::MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, 
             for (int64_t z = 0; z < first.size[2]; ++z) {
                 const V3d low = origin_ + width_ * V3d(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
                 Cell& cell = first.cells[static_cast<size_t>((x * first.size[1] + y) * first.size[2] + z)];
-                for (int i = 0; i < samples * samples * samples; ++i) {
-                    V3d place = low + width_ / samples * V3d(i % samples + 0.5, i / samples % samples + 0.5, i / (samples * samples) + 0.5);
-                    for (int k = 0; k < 3; ++k) place[k] = std::min(place[k], box.max[k]); // the last cube reaches beyond the box
-                    cell.add(cell_at(medium, place), share);
+                // Row by row and plane by plane: a sum of so many in single precision would drift.
+                for (int i = 0; i < samples; ++i) {
+                    Cell plane;
+                    for (int j = 0; j < samples; ++j) {
+                        Cell row;
+                        for (int k = 0; k < samples; ++k) {
+                            V3d place = low + width_ / samples * V3d(k + 0.5, j + 0.5, i + 0.5);
+                            for (int axis = 0; axis < 3; ++axis) place[axis] = std::min(place[axis], box.max[axis]); // the last cube reaches beyond the box
+                            row.add(cell_at(medium, place), share);
+                        }
+                        plane.add(row, share);
+                    }
+                    cell.add(plane, share);
                 }
                 cell.forget_range();
             }
@@ -158,12 +167,12 @@ bool MediumPyramid::is_same(const V3d& centre, double radius, MediumMean& mean) 
             }
         }
     }
-    const double sigma = ball.sigma_t, brightest = ball.brightest();
+    const double sigma = ball.sigma_t, brightest = ball.sigma_t - double{ball.least_lost()};
     if (!(sigma > 0 && brightest > 0)) return false;
     mean.sigma_t = sigma;
-    for (unsigned c = 0; c < 3; ++c) mean.albedo[c] = std::min<double>(extremes_.albedo_high, ball.scattered[c] / sigma);
-    mean.g = ball.forward / brightest;
-    const double loss = 1 - brightest / sigma, back = 1 - mean.g;
+    for (unsigned c = 0; c < 3; ++c) mean.albedo[c] = std::min<double>(extremes_.albedo_high, 1 - ball.lost[c] / sigma);
+    const double loss = ball.least_lost() / sigma, back = ball.turned / brightest;
+    mean.g = 1 - back;
     constexpr double rounded = 1e-6; // what sums in single precision are off by; all have no unit
     const auto close = [&](double low, double high, double square, double value) {
         const double most = value * tolerance_ + rounded;

@@ -3,8 +3,6 @@
 #include "mixtures/hash.h"
 #include "render/medium/grain_fields.h"
 
-#include <tbb/parallel_for.h>
-
 #include <map>
 
 namespace scree {
@@ -91,7 +89,8 @@ MomentTable::MomentTable(const std::vector<GrainType>& types, const PackingSampl
         const auto steps = is_black(type.material.absorption) ? 0 : static_cast<size_t>(std::ceil(range / finest));
         type.step = steps > 0 ? range / static_cast<double>(steps) : 0;
         type.albedo.resize(steps + 1);
-        tbb::parallel_for(size_t{0}, steps + 1, [&](size_t k) { type.albedo[k] = grain_albedo(*type.gsdf, type.material, std::exp(type.least + static_cast<double>(k) * type.step)); });
+        const GrainAlbedoByRadius by_radius(*type.gsdf, type.material);
+        for (size_t k = 0; k <= steps; ++k) type.albedo[k] = by_radius.at(std::exp(type.least + static_cast<double>(k) * type.step));
     }
 }
 

@@ -2,6 +2,8 @@
 
 #include "mixtures/identity.h"
 
+#include <array>
+
 namespace scree {
 
 namespace {
@@ -15,11 +17,25 @@ Imath::M33d to_matrix(const Imath::Quatd& q)
             2 * (x * z + w * y),     2 * (y * z - w * x),     1 - 2 * (x * x + y * y)};
 }
 
+/// Rotations of ids are functions of these alone; a path comes back to a grain several times.
+const Imath::M33d& recent_rotation(uint64_t id)
+{
+    struct Entry {
+        uint64_t id = 0;
+        bool known = false;
+        Imath::M33d rotation;
+    };
+    thread_local std::array<Entry, 64> recent;
+    Entry& entry = recent[id % recent.size()];
+    if (!entry.known || entry.id != id) entry = {id, true, to_matrix(rotation_of_id(id))};
+    return entry.rotation;
+}
+
 } // namespace
 
 Imath::M33d World::rotation(uint64_t grain) const
 {
-    if (grains.orientation.empty()) return to_matrix(rotation_of_id(id(grain)));
+    if (grains.orientation.empty()) return recent_rotation(id(grain));
     const Imath::Quatf& q = grains.orientation[grain - grains.analytic_count];
     return to_matrix(Imath::Quatd(q.r, q.v.x, q.v.y, q.v.z));
 }

@@ -20,11 +20,11 @@ struct FittingShell {
     PhaseFunction phase; ///< that its records were drawn from
 
     /// What a record of so many scatterings counts per channel, over what the sampled albedo's does.
-    Color ratio(uint32_t events) const
+    Weight ratio(uint32_t events) const
     {
         const auto of = [&](double a) {
-            if (a == sampled_albedo) return Real(1);
-            return a > 0 ? static_cast<Real>(std::exp(events * std::log(a / sampled_albedo))) : Real(0);
+            if (a == sampled_albedo) return 1.0;
+            return a > 0 ? std::exp(events * std::log(a / sampled_albedo)) : 0.0;
         };
         return {of(albedo.x), of(albedo.y), of(albedo.z)};
     }

@@ -4,16 +4,18 @@ namespace scree {
 
 namespace {
 
-/// Weights times albedo^events, and their sum.
+/// Weights times albedo^events, and the mean of that by weight: 1 where nothing is lost, whatever the weights' sum is rounded to.
 template <class Record>
-std::vector<double> weigh(const std::vector<Record>& records, const std::vector<float>& weights, double albedo, double& sum)
+std::vector<double> weigh(const std::vector<Record>& records, const std::vector<float>& weights, double albedo, double& mean)
 {
     std::vector<double> weighed(records.size());
-    sum = 0;
+    double sum = 0, all = 0;
     for (size_t i = 0; i < records.size(); ++i) {
         weighed[i] = weights[i] * std::pow(albedo, records[i].events);
         sum += weighed[i];
+        all += double{weights[i]};
     }
+    mean = sum / all;
     return weighed;
 }
 
