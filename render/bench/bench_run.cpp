@@ -27,17 +27,15 @@ std::vector<V3d> means_of(const Film& film)
 ConvergencePoint point_of(const MethodRun& run, const HalfPictures& reference)
 {
     ConvergencePoint point;
-    double sum = 0, squares = 0;
+    std::vector<std::vector<V3d>> pictures;
     const auto n = static_cast<double>(run.pictures());
     for (size_t s = 0; s < run.pictures(); ++s) {
-        const double error = squared_error(means_of(run.films()[s]), reference).value;
-        sum += error;
-        squares += error * error;
+        pictures.push_back(means_of(run.films()[s]));
         point.time.wall += run.time(s).wall / n;
         point.time.processor += run.time(s).processor / n;
         point.samples += run.samples(s) / n;
     }
-    point.squared_error = {sum / n, std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)) / (n - 1))};
+    point.squared_error = squared_error(pictures, reference);
     return point;
 }
 
