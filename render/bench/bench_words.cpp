@@ -23,7 +23,7 @@ std::string root_words(double squared) { return percent(squared) + " %"; }
 std::string bias_words(const Measured& squared_bias)
 {
     if (!std::isfinite(squared_bias.error)) return "not known";
-    if (!squared_bias.is_above_zero()) return fmt::format("< {} %", percent(std::max(0.0, squared_bias.value) + 1.96 * squared_bias.error));
+    if (!squared_bias.is_above_zero()) return fmt::format("< {} %", percent(std::max(squared_bias.high(), squared_bias.high() - squared_bias.value)));
     return fmt::format("{} % ({} to {})", percent(squared_bias.value), percent(squared_bias.low()), percent(squared_bias.high()));
 }
 

@@ -8,6 +8,14 @@ namespace scree {
 
 namespace {
 
+/// Student's t of 95 in 100 with so many degrees of freedom, by the expansion for many (Fisher, Cornish 1960); of few, that of three.
+double student(double freedom)
+{
+    constexpr double z = 1.959964, z3 = z * z * z, z5 = z3 * z * z;
+    const double f = std::max(freedom, 3.0);
+    return z + (z3 + z) / (4 * f) + (5 * z5 + 16 * z3 + 3 * z) / (96 * f * f);
+}
+
 /// Mean and standard error of values, one a pixel.
 class Mean {
 public:
@@ -18,13 +26,11 @@ public:
         mean_ += delta / n_;
         m2_ += delta * (x - mean_);
     }
-    Measured result() const { return {mean_, n_ > 1 ? std::sqrt(m2_ / (n_ - 1) / n_) : 0}; }
+    Measured result() const { return {mean_, n_ > 1 ? std::sqrt(m2_ / (n_ - 1) / n_) : 0, student(n_ - 1)}; }
 
 private:
     double n_ = 0, mean_ = 0, m2_ = 0;
 };
-
-double sum(const V3d& v) { return v.x + v.y + v.z; }
 
 /// The mean of the neighbours of each pixel, the pixel itself left out.
 std::vector<V3d> surroundings(const HalfPictures& picture)
@@ -74,7 +80,7 @@ Measured squared_bias(const HalfPictures& picture, const HalfPictures& reference
 {
     return relative_mean(weights, reference.has_noise(), [&](size_t p) {
         const V3d r = reference.whole(p);
-        return sum((picture.a[p] - r) * (picture.b[p] - r) - reference.noise(p));
+        return channel_sum((picture.a[p] - r) * (picture.b[p] - r) - reference.noise(p));
     });
 }
 
@@ -92,8 +98,8 @@ ErrorEstimate estimate_error(const HalfPictures& picture, const HalfPictures& re
         variance += picture.noise(p) + reference.noise(p);
     }
     ErrorEstimate estimate;
-    estimate.noise = relative_mean(weights, picture.has_noise(), [&](size_t p) { return sum(picture.noise(p)); });
-    estimate.reference_noise = relative_mean(weights, reference.has_noise(), [&](size_t p) { return sum(reference.noise(p)); });
+    estimate.noise = relative_mean(weights, picture.has_noise(), [&](size_t p) { return channel_sum(picture.noise(p)); });
+    estimate.reference_noise = relative_mean(weights, reference.has_noise(), [&](size_t p) { return channel_sum(reference.noise(p)); });
     estimate.squared_error = squared_error({whole}, reference);
     estimate.squared_bias = squared_bias(picture, reference, weights);
     estimate.smooth_bias = squared_bias(squares, reference_squares, weights_of(reference_squares));
@@ -112,7 +118,7 @@ Measured squared_error(const std::vector<std::vector<V3d>>& pictures, const Half
     return relative_mean(weights_of(reference), reference.has_noise(), [&](size_t p) {
         double squares = 0;
         for (const std::vector<V3d>& picture : pictures) squares += (picture[p] - reference.whole(p)).length2();
-        return squares / static_cast<double>(pictures.size()) - sum(reference.noise(p));
+        return squares / static_cast<double>(pictures.size()) - channel_sum(reference.noise(p));
     });
 }
 

@@ -10,12 +10,12 @@ namespace scree {
 /// A number and its standard error.
 struct Measured {
     double value = 0, error = 0;
+    double factor = 1.96; ///< of the standard error in the interval that holds the truth 95 times in 100: larger where the error is by few numbers
 
-    /// The interval that holds the truth 95 times in 100.
-    double low() const { return value - 1.96 * error; }
-    double high() const { return value + 1.96 * error; }
-    /// Whether it is above 0 by more than chance brings: three standard errors, as many of them are looked at.
-    bool is_above_zero() const { return value > 3 * error; }
+    double low() const { return value - factor * error; }
+    double high() const { return value + factor * error; }
+    /// Whether it is above 0 by more than chance brings: three standard errors or more, as many of them are looked at.
+    bool is_above_zero() const { return value > 1.5 * factor * error; }
 };
 
 inline constexpr int smooth_side = 8; ///< pixels: of the squares of smooth_bias
