@@ -48,7 +48,7 @@ std::vector<Tick> ticks_of(const Axis& axis, int wanted)
 {
     std::vector<Tick> ticks;
     if (axis.log) {
-        const bool few = axis.hi - axis.lo < 3; // decades: 2 and 5 have labels too, and all are plain numbers
+        const bool few = axis.hi - axis.lo < 3; // decades: 2 and 5 have labels too (in less than one, all), and all are plain numbers
         const int first = static_cast<int>(std::ceil(axis.lo - 1e-9)), last = static_cast<int>(std::floor(axis.hi + 1e-9));
         const int each = std::max(1, (last - first + wanted - 1) / wanted);
         for (int k = first - 1; k <= last; ++k) {
@@ -56,7 +56,7 @@ std::vector<Tick> ticks_of(const Axis& axis, int wanted)
             if (labelled) ticks.push_back({double(k), few ? plain(k, 1) : fmt::format("10<tspan dy=\"-5\" font-size=\"9\">{}</tspan>", k)});
             if (!labelled && k >= first && each < 5) ticks.push_back({double(k), ""});
             for (int m = 2; m < 10 && last - first < 4; ++m)
-                if (const double place = k + std::log10(m); place > axis.lo && place < axis.hi) ticks.push_back({place, few && (m == 2 || m == 5) ? plain(k, m) : ""});
+                if (const double place = k + std::log10(m); place > axis.lo && place < axis.hi) ticks.push_back({place, few && (m == 2 || m == 5 || axis.hi - axis.lo < 0.8) ? plain(k, m) : ""});
         }
         return ticks;
     }

@@ -1,12 +1,13 @@
 // scree bench from end to end on a scene of some grains.
 
+#include "ingest/support/error.h"
 #include "packing/report/svg_plot.h"
 #include "render/bench/bench_command.h"
 #include "render/bench/bench_page.h"
 #include "render/bench/bench_run.h"
 #include "render/bench/bench_words.h"
 #include "render/bench/exr_planes.h"
-#include "render/bench/suite_report.h"
+#include "render/bench/suite_run.h"
 #include "tests/render/scene_files.h"
 
 #include <CLI/CLI.hpp>
@@ -231,6 +232,33 @@ TEST_F(BenchCommand, FindsABiasedMethod)
     EXPECT_TRUE(biased.squared_bias.is_above_zero()) << biased.squared_bias.value << " +- " << biased.squared_bias.error;
     EXPECT_LT(biased.color[0].value, -3 * biased.color[0].error);
     EXPECT_GT(biased.squared_error.value, biased.noise.value);
+}
+
+TEST_F(BenchCommand, KeepsTheReferenceAndOldPagesWhenInterrupted)
+{
+    BenchJob job = job_of(scene_, 0.2);
+    job.title = "few";
+    job.scene.size = {24, 18};
+    job.reference_seconds = 0.4;
+    SuiteResult suite{"", 1, 0, {}};
+    run_suite({job}, suite, folder_.path("out"), "", Progress());
+    const std::string page = read_bytes(folder_.path("out/README.md")), plot = read_bytes(folder_.path("out/few.svg"));
+    BenchJob other = job;
+    other.title = "other";
+    Progress* running = nullptr;
+    Progress progress([&](const std::string& stage, double done) {
+        if (stage == "reference" && done > 0.3) running->cancel();
+    });
+    running = &progress;
+    suite.scenes.clear();
+    EXPECT_THROW(run_suite({job, other}, suite, folder_.path("out"), "", progress), Cancelled);
+    EXPECT_EQ(suite.scenes.size(), 1u); // its reference was there
+    EXPECT_EQ(read_bytes(folder_.path("out/README.md")), page);
+    EXPECT_EQ(read_bytes(folder_.path("out/few.svg")), plot);
+    EXPECT_FALSE(std::filesystem::exists(folder_.path("out/other.svg")));
+    const ExrPlanes reference = read_exr_planes(folder_.path("out/details/other/reference.exr"));
+    EXPECT_GT(reference.numbers.at("spp"), 1);
+    EXPECT_LT(reference.numbers.at("secondsAsked"), 0.3);
 }
 
 TEST_F(BenchCommand, ComplainsClearly)
