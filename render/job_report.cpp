@@ -1,9 +1,9 @@
 #include "render/job_report.h"
 
+#include "render/bench/work_meter.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include <sys/resource.h>
 
 #include <algorithm>
 
@@ -16,13 +16,6 @@ std::string bytes_text(uint64_t bytes)
     if (bytes < 10000) return fmt::format("{} B", bytes);
     if (bytes < 10000000) return fmt::format("{:.1f} kB", static_cast<double>(bytes) * 1e-3);
     return fmt::format("{:.1f} MB", static_cast<double>(bytes) * 1e-6);
-}
-
-uint64_t peak_memory()
-{
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 std::string part_text(const PartReport& part)
@@ -104,7 +97,7 @@ std::string statistics_text(const FrameReport& report)
                         1e-6 * per_second(s.segments, s.seconds), s.shadow_rays, static_cast<double>(s.segments) / static_cast<double>(std::max<uint64_t>(1, s.paths)), s.longest);
     if (s.events > 0) text += fmt::format("  {} scatterings in media ({:.3f} million a second)\n", s.events, 1e-6 * per_second(s.events, s.seconds));
     if (s.shells > 0) text += fmt::format("  {} shells ({:.3f} million a second)\n", s.shells, 1e-6 * per_second(s.shells, s.seconds));
-    text += fmt::format("  {} samples not finite, {} rays lost between triangles, peak memory {}\n", s.non_finite, s.leaks, bytes_text(peak_memory()));
+    text += fmt::format("  {} samples not finite, {} rays lost between triangles, peak memory {}\n", s.non_finite, s.leaks, bytes_text(peak_bytes()));
     return text;
 }
 
@@ -129,7 +122,7 @@ std::string statistics_json(const std::vector<FrameReport>& reports, const std::
             frames.back()["error_reached"] = s.error_reached;
         }
     }
-    return json{{"version", SCREE_VERSION}, {"integrator", integrator}, {"peak_memory_bytes", peak_memory()}, {"frames", frames}}.dump(2) + "\n";
+    return json{{"version", SCREE_VERSION}, {"integrator", integrator}, {"peak_memory_bytes", peak_bytes()}, {"frames", frames}}.dump(2) + "\n";
 }
 
 std::string debug_text(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter,

@@ -37,18 +37,26 @@ double nice_step(double extent, int wanted)
     return (ratio < 1.5 ? 1 : ratio < 3.5 ? 2 : ratio < 7.5 ? 5 : 10) * power;
 }
 
+/// m 10^k, in digits where they are few.
+std::string plain(int k, int m)
+{
+    if (k >= -4 && k <= 4) return fmt::format("{:.{}f}", m * std::pow(10, k), std::max(0, -k));
+    return fmt::format("{}10<tspan dy=\"-5\" font-size=\"9\">{}</tspan>", m == 1 ? "" : fmt::format("{}·", m), k);
+}
+
 std::vector<Tick> ticks_of(const Axis& axis, int wanted)
 {
     std::vector<Tick> ticks;
     if (axis.log) {
+        const bool few = axis.hi - axis.lo < 3; // decades: 2 and 5 have labels too (in less than one, all), and all are plain numbers
         const int first = static_cast<int>(std::ceil(axis.lo - 1e-9)), last = static_cast<int>(std::floor(axis.hi + 1e-9));
         const int each = std::max(1, (last - first + wanted - 1) / wanted);
         for (int k = first - 1; k <= last; ++k) {
             const bool labelled = k >= first && (k - first) % each == 0;
-            if (labelled) ticks.push_back({double(k), fmt::format("10<tspan dy=\"-5\" font-size=\"9\">{}</tspan>", k)});
+            if (labelled) ticks.push_back({double(k), few ? plain(k, 1) : fmt::format("10<tspan dy=\"-5\" font-size=\"9\">{}</tspan>", k)});
             if (!labelled && k >= first && each < 5) ticks.push_back({double(k), ""});
             for (int m = 2; m < 10 && last - first < 4; ++m)
-                if (const double place = k + std::log10(m); place > axis.lo && place < axis.hi) ticks.push_back({place, ""});
+                if (const double place = k + std::log10(m); place > axis.lo && place < axis.hi) ticks.push_back({place, few && (m == 2 || m == 5 || axis.hi - axis.lo < 0.8) ? plain(k, m) : ""});
         }
         return ticks;
     }
@@ -135,11 +143,19 @@ std::string draw_bars(const PlotSeries& s, const Axis& x, const Axis& y, const c
     return svg + "</g>\n";
 }
 
-std::string draw_curve(const PlotSeries& s, const Axis& x, const Axis& y, const char* colour)
+/// Where colours come again, or dashes are asked for.
+bool is_dashed(const Plot& plot, size_t series) { return plot.series[series].style == PlotSeries::Style::dashes || series >= colours.size(); }
+
+std::string draw_curve(const PlotSeries& s, const Axis& x, const Axis& y, const char* colour, bool dashed)
 {
-    std::string path;
+    std::string path, dots;
     bool pen_down = false;
     for (size_t i = 0; i < s.y.size() && i < s.x.size(); ++i) {
+        const bool marked = i < s.hollow.size() && x.shows(s.x[i]) && std::isfinite(s.y[i]);
+        if (marked) {
+            dots += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"2.6\" fill=\"{}\" stroke=\"{}\"/>\n", x.pixel(s.x[i]), y.shows(s.y[i]) ? y.pixel(s.y[i]) : y.from - 3,
+                                s.hollow[i] || !y.shows(s.y[i]) ? "#fff" : colour, colour);
+        }
         if (!x.shows(s.x[i]) || !y.shows(s.y[i])) {
             pen_down = false;
             continue;
@@ -148,9 +164,8 @@ std::string draw_curve(const PlotSeries& s, const Axis& x, const Axis& y, const 
         path += fmt::format("{}{:.2f} {:.2f}", pen_down ? 'L' : 'M', std::clamp(x.pixel(s.x[i]), -1e4, 1e4), std::clamp(y.pixel(s.y[i]), -1e4, 1e4));
         pen_down = true;
     }
-    if (path.empty()) return "";
-    const char* dashes = s.style == PlotSeries::Style::dashes ? " stroke-dasharray=\"6 4\"" : "";
-    return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-linejoin=\"round\"{}/>\n", path, colour, dashes);
+    if (path.empty()) return dots;
+    return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-linejoin=\"round\"{}/>\n", path, colour, dashed ? " stroke-dasharray=\"6 4\"" : "") + dots;
 }
 
 std::string draw_dots(const PlotSeries& s, const Axis& x, const Axis& y, const char* colour)
@@ -218,7 +233,7 @@ std::string draw_legend(const Plot& plot, double& used)
             place(s.name, fmt::format("<circle cx=\"10\" cy=\"8\" r=\"2.6\" fill=\"{}\"/>", colour));
         else
             place(s.name, fmt::format("<line x1=\"0\" y1=\"8\" x2=\"19\" y2=\"8\" stroke=\"{}\" stroke-width=\"2\"{}/>", colour,
-                                      s.style == PlotSeries::Style::dashes ? " stroke-dasharray=\"6 4\"" : ""));
+                                      is_dashed(plot, i) ? " stroke-dasharray=\"6 4\"" : ""));
     }
     if (!svg.empty()) used += legend_line;
     return svg;
@@ -265,7 +280,7 @@ std::string svg_of(const Plot& plot)
     for (size_t i = 0; i < plot.series.size(); ++i) {
         const PlotSeries& s = plot.series[i];
         const char* colour = colours[i % colours.size()];
-        svg += s.style == PlotSeries::Style::bars ? draw_bars(s, x, y, colour) : s.style == PlotSeries::Style::dots ? draw_dots(s, x, y, colour) : draw_curve(s, x, y, colour);
+        svg += s.style == PlotSeries::Style::bars ? draw_bars(s, x, y, colour) : s.style == PlotSeries::Style::dots ? draw_dots(s, x, y, colour) : draw_curve(s, x, y, colour, is_dashed(plot, i));
     }
     svg += draw_marks(plot, x, y);
     return svg + "</svg>\n</svg>\n";

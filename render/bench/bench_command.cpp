@@ -2,9 +2,9 @@
 
 #include "ingest/support/console_progress.h"
 #include "ingest/support/error.h"
-#include "render/bench/bench_report.h"
-#include "render/bench/bench_result.h"
 #include "render/bench/bench_suite.h"
+#include "render/bench/bench_table.h"
+#include "render/bench/bench_words.h"
 #include "render/bench/stress/stress_command.h"
 #include "render/bench/suite_run.h"
 #include "render/interrupt.h"
@@ -14,14 +14,15 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include <filesystem>
 #include <memory>
+#include <optional>
 
 namespace scree {
 
 namespace {
 
 constexpr int interrupted_status = 130;
-constexpr const char* usual_suite = "examples/bench/suite.json";
 
 struct Arguments {
     std::string integrators = "auto,ept,ppt,vpt,stf", accuracy, size;
@@ -29,7 +30,7 @@ struct Arguments {
     BenchJob job;
     bool suite = false;
     std::filesystem::path suite_file; ///< empty: the usual one
-    double scale = 1; ///< of the suite's times
+    std::optional<double> scale; ///< of the suite's times
     std::filesystem::path readme;
 };
 
@@ -43,6 +44,7 @@ void take_over(Arguments& a)
     }
     if (job.scene.scene.empty()) throw InputError("scree bench", "no scene", "a scene file, or --suite");
     if (job.folder.empty()) throw InputError("--output", "nothing", "a folder for the page, bench.json and the reference");
+    if (a.scale) throw InputError("--suite-scale", "one scene", "--suite, whose times it scales", "the times of one scene are --time and --reference-time");
     if (!a.readme.empty()) throw InputError("--readme", "one scene", "--suite, whose numbers go there");
     job.methods = parse_methods(a.integrators, a.accuracy);
     if (!a.size.empty()) job.scene.size = parse_picture_size(a.size);
@@ -51,20 +53,35 @@ void take_over(Arguments& a)
     if (job.title == "scene" && job.scene.scene.has_parent_path()) job.title = std::filesystem::absolute(job.scene.scene).parent_path().filename().string();
 }
 
+/// What brings the same numbers again.
+std::string suite_command(const Arguments& a, const std::filesystem::path& file)
+{
+    std::string text = "scree bench --suite=" + file.lexically_proximate(std::filesystem::current_path()).string();
+    if (a.scale) text += fmt::format(" --suite-scale {:g}", *a.scale);
+    if (a.job.scene.threads > 0) text += fmt::format(" -t {}", a.job.scene.threads);
+    if (a.job.scene.options.seed != 0) text += fmt::format(" --seed {}", a.job.scene.options.seed);
+    return text;
+}
+
 void run_work(const Arguments& a, const Progress& progress, ConsoleProgress& console)
 {
+    std::string text;
     if (a.suite) {
-        std::vector<BenchJob> jobs = read_suite(a.suite_file.empty() ? usual_suite : a.suite_file, a.scale);
+        const std::filesystem::path file = a.suite_file.empty() ? usual_suite() : a.suite_file;
+        SuiteResult suite{suite_command(a, file), a.scale.value_or(1), 0, {}};
+        std::vector<BenchJob> jobs = read_suite(file, suite.scale);
         for (BenchJob& job : jobs) {
             job.scene.threads = a.job.scene.threads;
             job.scene.options.seed = a.job.scene.options.seed;
         }
-        run_suite(jobs, a.job.folder, a.readme, progress);
-        return;
+        run_suite(jobs, suite, a.job.folder, a.readme, progress);
+        text = suite_table(suite);
+    } else {
+        const BenchResult result = run_and_write(a.job, progress);
+        text = scene_words(result) + "\n" + machine_words(result.machine, result.processor_share()) + "\n" + terminal_table({result});
     }
-    const BenchResult result = run_and_write(a.job, progress);
     console.finish();
-    fmt::print("{}  page: {}\n", table_of(result), (a.job.folder / "index.html").string());
+    fmt::print("{}  page: {}\n", text, (a.job.folder / "index.html").string());
 }
 
 int run(const Arguments& arguments)
@@ -82,7 +99,9 @@ int run(const Arguments& arguments)
         run_work(arguments, progress, console);
     } catch (const Cancelled&) {
         console.finish();
-        fmt::print(stderr, "scree: interrupted; nothing is written but what there is of the reference\n");
+        const std::filesystem::path kept = job.folder / (arguments.suite ? "details" : "reference.exr");
+        const char* what = arguments.suite ? "finished scenes and references, to be gone on with, are in" : "to be gone on with, there is";
+        fmt::print(stderr, "scree: interrupted; pages and numbers are as they were{}\n", std::filesystem::exists(kept) ? fmt::format("; {} {}", what, kept.string()) : "");
         return interrupted_status;
     }
     return 0;
@@ -99,7 +118,7 @@ void add_bench_command(CLI::App& app)
     command->add_option("scene", job.scene.scene, "Scene file (JSON)");
     command->add_option("-o,--output", job.folder, "Folder for the page, bench.json and the reference (with --suite: bench)");
     command->add_option("--integrators", a.integrators, "Ways to render, separated by commas: of auto, ept, ppt, vpt, stf (default: all)");
-    command->add_option("--accuracy", a.accuracy, "How far auto's approximations may go: of reference, high, standard, draft; several make several methods");
+    command->add_option("--accuracy", a.accuracy, "With auto: how far its approximations may go: of reference, high, standard, draft; several make several methods");
     command->add_option("--time", job.seconds, "Seconds of rendering for each method, on a machine that does nothing else (default 20)")->check(CLI::Range(1e-3, 1e7));
     command->add_option("--seeds", job.seeds, "Independent pictures of each method (default 4)")->check(CLI::Range(2, 1024));
     auto* const file = command->add_option("--reference", job.reference, "Picture (EXR) to compare with, in place of rendering one");

@@ -34,17 +34,19 @@ std::vector<BenchMethod> parse_methods(const std::string& integrators, const std
     std::vector<size_t> levels;
     if (!accuracies.empty()) levels = places_of(accuracies, accuracy_names, "--accuracy");
     std::vector<BenchMethod> methods;
+    bool has_auto = false;
     for (const size_t place : places_of(integrators, integrator_names, "--integrators")) {
         const auto kind = static_cast<IntegratorKind>(place);
+        has_auto = has_auto || kind == IntegratorKind::automatic;
         if (kind != IntegratorKind::automatic || levels.empty()) {
             methods.push_back({integrator_names[place], kind, std::nullopt});
             continue;
         }
         for (const size_t level : levels) {
-            const std::string name = levels.size() == 1 ? "auto" : "auto " + accuracy_names[level];
-            methods.push_back({name, kind, static_cast<Accuracy>(level)});
+            methods.push_back({"auto " + accuracy_names[level], kind, static_cast<Accuracy>(level)});
         }
     }
+    if (!levels.empty() && !has_auto) throw InputError("--accuracy", accuracies, "auto among the integrators: no other has an accuracy", "add auto to --integrators, or leave --accuracy out");
     return methods;
 }
 

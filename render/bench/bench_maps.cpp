@@ -21,8 +21,6 @@ std::string base64(const std::string& bytes)
     return text;
 }
 
-double sum(const V3d& v) { return v.x + v.y + v.z; }
-
 } // namespace
 
 ScreenPicture screen_picture(const HalfPictures& picture, const std::vector<V3d>& radiance) { return {picture.width, picture.height, radiance}; }
@@ -66,7 +64,7 @@ std::vector<float> shown_bias(const HalfPictures& picture, const HalfPictures& r
             for (int y = y0; y < std::min(h, y0 + bias_square); ++y)
                 for (int x = x0; x < std::min(w, x0 + bias_square); ++x) pixels.push_back(static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x));
             for (const size_t p : pixels) {
-                difference += sum(picture.whole(p) - reference.whole(p));
+                difference += channel_sum(picture.whole(p) - reference.whole(p));
                 // Channels of one sample go together: their deviations add, and not their variances.
                 for (const V3d& v : {picture.variance[p], reference.variance[p]}) {
                     const double deviation = std::sqrt(v.x) + std::sqrt(v.y) + std::sqrt(v.z);

@@ -1,6 +1,7 @@
 #include "render/bench/bench_page.h"
 
 #include "render/bench/bench_maps.h"
+#include "render/bench/bench_table.h"
 #include "render/bench/bench_words.h"
 #include "render/bench/flip.h"
 
@@ -30,8 +31,6 @@ figcaption { font-size: 13px; color: #34414f; margin: 3px 0 0; }
 @media print { body { background: #fff; } section { break-inside: avoid; } }
 )";
 
-using Row = std::vector<std::string>;
-
 std::string figure(const BenchResult& result, const std::vector<float>& rgb, const std::string& caption)
 {
     if (rgb.empty()) return "";
@@ -39,32 +38,18 @@ std::string figure(const BenchResult& result, const std::vector<float>& rgb, con
                        result.width(), result.height(), xml_escaped(caption), xml_escaped(caption));
 }
 
-std::string error_section(const BenchResult& result)
-{
-    std::vector<Row> rows;
-    for (const MethodResult& m : result.methods) {
-        const ErrorEstimate& e = m.estimate;
-        rows.push_back({m.name, std::to_string(m.samples), seconds_words(m.time.processor), root_words(e.noise.value), seconds_words(m.time_to_unit_variance()), error_words(e),
-                        fmt::format("{:.2e}", e.squared_error.value), bias_words(e.squared_bias), bias_words(e.smooth_bias), colors_words(e.color), fmt::format("{:.3f}", mean_flip(m.flip))});
-    }
-    return page_section("Error", "Errors are relative, root mean square over pixels. Noise and bias are told apart by two halves of each picture that share no sample; a bias that is no larger than "
-                            "what chance brings is called not measured, with the most that it can be (95 %). Time to unit variance is noise squared times processor time: the less, the faster. "
-                            "An error below the noise of the reference says no more than that. Colours: of the picture's mean, with one standard error.",
-                   html_table({"method", "spp", "processor time", "noise", "unit variance", "error", "MRSE", "bias", "bias of squares", "mean colour R G B, %", "FLIP"}, rows));
-}
-
 std::string cost_section(const BenchResult& result)
 {
-    std::vector<Row> rows;
+    std::vector<TableRow> rows;
     for (const MethodResult& m : result.methods) {
         const RenderStatistics& s = m.statistics;
         const auto per_second = [&](uint64_t n) { return n > 0 ? count_words(rate(n, m)) : "-"; };
-        rows.push_back({m.name, m.plan, seconds_words(m.setup.read), seconds_words(m.setup.precompute), seconds_words(m.setup.build), seconds_words(m.time.wall), seconds_words(m.time.processor),
+        rows.push_back({m.name, m.plan, seconds_words(m.setup.read), seconds_words(m.setup.precompute), seconds_words(m.setup.build), setup_words(m.setup), seconds_words(m.time.wall), seconds_words(m.time.processor),
                         bytes_words(m.memory), per_second(s.paths), per_second(s.segments + s.shadow_rays), per_second(s.events), per_second(s.shells)});
     }
     return page_section("Cost", fmt::format("Rates are a second of processor time. Memory is the peak of a method's set-up above what there was before; the program's own peak was {}. "
-                                       "What a cache holds already is read and not computed.", bytes_words(result.peak_memory)),
-                   html_table({"method", "integrator", "read", "precompute", "build", "render (clock)", "render (processors)", "memory", "paths/s", "rays/s", "events/s", "shells/s"}, rows));
+                                       "Read, precompute and build are by the clock. What a cache holds already is read and not computed.", bytes_words(result.peak_memory)),
+                   html_table({"method", "integrator", "read", "precompute", "build", "set up (processors)", "render (clock)", "render (processors)", "memory", "paths/s", "rays/s", "events/s", "shells/s"}, rows));
 }
 
 std::string picture_section(const BenchResult& result)
@@ -73,7 +58,7 @@ std::string picture_section(const BenchResult& result)
     std::string html = "<div class=\"pictures\">\n" + figure(result, shown(reference), fmt::format("Reference: {}", result.reference.name)) + "</div>\n";
     for (const MethodResult& m : result.methods) {
         html += "<div class=\"pictures\">\n" + figure(result, shown(m.picture), fmt::format("{}: {} samples a pixel", m.name, m.samples));
-        html += figure(result, shown_flip(m.flip), fmt::format("{}: FLIP, mean {:.3f}", m.name, mean_flip(m.flip)));
+        html += figure(result, shown_flip(m.flip), fmt::format("{}: FLIP, mean {}", m.name, flip_words(result, mean_flip(m.flip))));
         html += figure(result, shown_bias(m.picture, reference), fmt::format("{}: difference over its standard error", m.name)) + "</div>\n";
     }
     return page_section("Pictures", fmt::format("FLIP: from black (no difference that one would see when flipping between them) to pale yellow (1); that of the two halves of the reference is {:.3f}. "
@@ -87,23 +72,24 @@ std::string picture_section(const BenchResult& result)
 Plot convergence_plot(const BenchResult& result)
 {
     Plot plot;
-    plot.title = "Error against time";
+    plot.title = "Error against time: " + result.job.title;
     plot.x_label = "processor time of one picture, s";
     plot.y_label = "relative error";
     plot.log_x = plot.log_y = true;
     for (const MethodResult& m : result.methods) {
-        PlotSeries line{m.name, PlotSeries::Style::line, {}, {}, {}};
+        PlotSeries line{m.name, PlotSeries::Style::line, {}, {}, {}, {}};
         for (const ConvergencePoint& p : m.points) {
             line.x.push_back(p.time.processor);
             line.y.push_back(p.squared_error.value > 0 ? std::sqrt(p.squared_error.value) : 0);
+            line.hollow.push_back(p.below_reference);
         }
         plot.series.push_back(std::move(line));
     }
-    if (!result.methods.empty() && result.reference.picture.has_noise()) {
-        plot.marks.push_back({std::sqrt(std::max(0.0, result.methods.front().estimate.reference_noise.value)), "noise of the reference", true});
-    }
+    if (std::isfinite(result.reference_noise.error)) plot.marks.push_back({std::sqrt(std::max(0.0, result.reference_noise.value)), "noise of the reference", true});
     return plot;
 }
+
+std::string plot_figure(const BenchResult& result) { return "<div class=\"plots\"><figure>" + svg_of(convergence_plot(result)) + "</figure></div>\n"; }
 
 std::string page_head(const std::string& title, const std::string& below)
 {
@@ -113,12 +99,12 @@ std::string page_head(const std::string& title, const std::string& below)
                        xml_escaped(title), xml_escaped(below), style);
 }
 
-std::string html_table(const Row& head, const std::vector<Row>& rows)
+std::string html_table(const TableRow& head, const std::vector<TableRow>& rows)
 {
     std::string html = "<table>\n<thead><tr>";
     for (const std::string& cell : head) html += "<th>" + xml_escaped(cell) + "</th>";
     html += "</tr></thead>\n<tbody>\n";
-    for (const Row& row : rows) {
+    for (const TableRow& row : rows) {
         html += "<tr>";
         for (const std::string& cell : row) html += "<td>" + xml_escaped(cell) + "</td>";
         html += "</tr>\n";
@@ -135,15 +121,10 @@ std::string page_end() { return "</main>\n</body>\n</html>\n"; }
 
 std::string page_of(const BenchResult& result)
 {
-    const ReferencePicture& r = result.reference;
-    const std::string noise = !result.methods.empty() && r.picture.has_noise() ? root_words(result.methods.front().estimate.reference_noise.value) : "not known";
-    const std::string below = fmt::format("{}, frame {}, {}x{}, {} seeds. Reference: {}, {} samples a pixel, {} of processors, noise {}. {}; Scree {}", result.scene, result.frame, result.width(),
-                                          result.height(), result.seeds, r.name, r.samples, seconds_words(r.processor_seconds), noise, machine_words(result.machine), SCREE_VERSION);
-    const std::string plots = "<div class=\"plots\"><figure>" + svg_of(convergence_plot(result)) + "</figure></div>\n";
-    return page_head(result.title, below) + error_section(result)
-           + page_section("Convergence", "Mean over the pictures of all seeds, less the noise of the reference; below the dotted line the reference is not good enough to tell. "
-                                    "Methods without bias fall along a slope of -1/2; one with bias ends at it.", plots)
-           + cost_section(result) + picture_section(result) + page_end();
+    std::string notes;
+    for (const std::string& note : result.notes) notes += "<p>" + xml_escaped(note) + "</p>\n";
+    return page_head(result.job.title, scene_words(result) + ". " + machine_words(result.machine, result.processor_share())) + page_section("Error", table_legend, notes + html_table(table_head, table_rows(result)))
+           + page_section("Convergence", plot_legend, plot_figure(result)) + cost_section(result) + picture_section(result) + page_end();
 }
 
 } // namespace scree

@@ -1,10 +1,12 @@
 #pragma once
 
+#include "render/bench/bench_job.h"
 #include "render/bench/error_estimate.h"
 #include "render/bench/machine.h"
 #include "render/bench/method_run.h"
 #include "render/bench/reference_picture.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +16,7 @@ namespace scree {
 struct ConvergencePoint {
     WorkTime time;             ///< of one picture
     double samples = 0;        ///< a pixel, of one picture
-    Measured squared_error;    ///< relative, against the truth; error: by the scatter over seeds
+    Measured squared_error;    ///< relative, against the truth
     bool below_reference = false;
 };
 
@@ -32,24 +34,29 @@ struct MethodResult {
     HalfPictures picture;
     std::vector<double> flip;  ///< against the reference
 
-    /// Seconds of processors until the relative variance of the picture is 1.
+    /// Seconds of processors until the relative variance of the picture is 1, without set-up.
     double time_to_unit_variance() const { return estimate.noise.value * time.processor; }
 };
 
 /// All that one run of `scree bench` found out about a scene.
 struct BenchResult {
-    std::string title, scene;  ///< scene: name of its file
-    size_t frame = 0, seeds = 0;
-    std::string frame_name;
+    BenchJob job;
     uint64_t scene_hash = 0;
     Machine machine;
     ReferencePicture reference;
+    Measured reference_noise;  ///< squared, relative; of infinite error where it is not known
     double reference_flip = 0; ///< mean, of its two halves
     std::vector<MethodResult> methods;
+    std::vector<std::string> notes;
     uint64_t peak_memory = 0;  ///< of the program
 
     int width() const { return reference.picture.width; }
     int height() const { return reference.picture.height; }
+    /// How many times less processor time of rendering, without set-up, a method takes than ept to the same variance; nothing without
+    /// ept. Of infinite standard error where a noise is not known.
+    std::optional<Measured> gain(const MethodResult& method) const;
+    /// Part of its threads' time in which rendering had a processor: well below 1 on a busy machine.
+    double processor_share() const;
 };
 
 } // namespace scree

@@ -5,6 +5,8 @@
 #include "render/bench/bench_maps.h"
 #include "render/bench/flip.h"
 
+#include <fmt/format.h>
+
 #include <memory>
 
 namespace scree {
@@ -27,17 +29,15 @@ std::vector<V3d> means_of(const Film& film)
 ConvergencePoint point_of(const MethodRun& run, const HalfPictures& reference)
 {
     ConvergencePoint point;
-    double sum = 0, squares = 0;
+    std::vector<std::vector<V3d>> pictures;
     const auto n = static_cast<double>(run.pictures());
     for (size_t s = 0; s < run.pictures(); ++s) {
-        const double error = squared_error(means_of(run.films()[s]), reference).value;
-        sum += error;
-        squares += error * error;
+        pictures.push_back(means_of(run.films()[s]));
         point.time.wall += run.time(s).wall / n;
         point.time.processor += run.time(s).processor / n;
         point.samples += run.samples(s) / n;
     }
-    point.squared_error = {sum / n, std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)) / (n - 1))};
+    point.squared_error = squared_error(pictures, reference);
     return point;
 }
 
@@ -65,18 +65,19 @@ ReferencePicture find_reference(const BenchJob& job, double threads, const Progr
 BenchResult run_bench(const BenchJob& job, const Progress& progress)
 {
     BenchResult result;
-    result.title = job.title;
-    result.scene = job.scene.scene.string();
-    result.frame = job.frame;
-    result.seeds = job.seeds;
+    result.job = job;
     result.machine = this_machine(job.scene.threads);
     result.reference = find_reference(job, result.machine.threads, progress);
+    if (!result.reference.note.empty()) result.notes.push_back(result.reference.note);
     const HalfPictures& reference = result.reference.picture;
     if (reference.halved) result.reference_flip = mean_flip(flip_difference(screen_picture(reference, reference.a), screen_picture(reference, reference.b)));
 
     std::vector<std::unique_ptr<MethodRun>> runs;
     for (const BenchMethod& method : job.methods) runs.push_back(std::make_unique<MethodRun>(job, method, seed_of(job, 0), job.seeds, progress));
     result.scene_hash = runs.front()->scene_hash();
+    const std::string& key = result.reference.key;
+    if (!key.empty() && key.rfind(fmt::format("{:016x} ", result.scene_hash), 0) != 0) result.notes.push_back("the reference was rendered of another scene, or of this one before it was changed");
+    if (!reference.has_noise()) result.notes.push_back("nothing is known of the reference's noise: errors hold it too, and no bias can be told");
 
     std::vector<std::vector<ConvergencePoint>> points(runs.size());
     const double whole = job.seconds * result.machine.threads / static_cast<double>(job.seeds); // processor seconds a picture
@@ -95,8 +96,8 @@ BenchResult run_bench(const BenchJob& job, const Progress& progress)
     }
     for (size_t m = 0; m < runs.size(); ++m) {
         result.methods.push_back(result_of(*runs[m], std::move(points[m]), reference));
-        const double reference_noise = result.methods.back().estimate.reference_noise.value;
-        for (ConvergencePoint& point : result.methods.back().points) point.below_reference = point.squared_error.value < reference_noise;
+        result.reference_noise = result.methods.back().estimate.reference_noise;
+        for (ConvergencePoint& point : result.methods.back().points) point.below_reference = reference.has_noise() && point.squared_error.value < result.reference_noise.value;
     }
     result.peak_memory = peak_bytes();
     return result;

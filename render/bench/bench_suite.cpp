@@ -1,5 +1,6 @@
 #include "render/bench/bench_suite.h"
 
+#include "ingest/support/error.h"
 #include "ingest/support/json.h"
 
 #include <fmt/format.h>
@@ -50,6 +51,18 @@ BenchJob read_job(const JsonValue& json, double scale)
 }
 
 } // namespace
+
+std::filesystem::path usual_suite()
+{
+    const std::filesystem::path name = "examples/bench/suite.json";
+    if (std::filesystem::exists(name)) return name;
+    std::error_code error;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+    for (std::filesystem::path folder = program.parent_path(); folder.has_relative_path(); folder = folder.parent_path()) {
+        if (std::filesystem::exists(folder / name)) return folder / name;
+    }
+    throw InputError("--suite", "no " + name.string() + " here, nor above the program " + program.string(), "the suite of the source", "run it in the source's folder, or name the file as --suite=FILE");
+}
 
 std::vector<BenchJob> read_suite(const std::filesystem::path& file, double scale)
 {

@@ -14,4 +14,7 @@ namespace scree {
 /// scale: of all times. Throws InputError.
 std::vector<BenchJob> read_suite(const std::filesystem::path& file, double scale);
 
+/// examples/bench/suite.json of the folder where we are, or of one above the program. Throws InputError.
+std::filesystem::path usual_suite();
+
 } // namespace scree

@@ -5,10 +5,9 @@
 #include "ingest/support/error.h"
 #include "mixtures/hash.h"
 #include "render/bench/bench_suite.h"
-#include "render/bench/error_estimate.h"
+#include "render/bench/bench_words.h"
+#include "render/bench/method_run.h"
 #include "render/bench/text_table.h"
-#include "render/bench/work_meter.h"
-#include "render/render_setup.h"
 
 #include <fmt/format.h>
 
@@ -17,75 +16,49 @@
 namespace {
 
 using namespace scree;
-
-/// A scene of the suite, ready to be rendered as it is by default.
-class Stage {
-public:
-    explicit Stage(const RenderJob& job) : builder_(load_scene(job)), frame_(job.frames ? job.frames->first : 0), setup_(builder_, builder_.build(frame_, Progress()), job) {}
-
-    Film film() const
-    {
-        const FilmDescription& film = builder_.scene().film;
-        return {film.width, film.height, 0, 0, film.width, film.height};
-    }
-    /// On with a film, to so many samples or to an error.
-    RenderStatistics render(Film& film, uint64_t seed, uint32_t spp, double error) const
-    {
-        RenderOptions options = setup_.options();
-        options.timeout = 0;
-        options.seed = seed;
-        options.spp = spp;
-        options.error = error;
-        return scree::render(setup_.world(), setup_.tracer(), setup_.camera(), setup_.filter(), film, options, Progress());
-    }
-
-private:
-    WorldBuilder builder_;
-    size_t frame_;
-    RenderSetup setup_;
-};
-
-/// Pictures of two seeds with the same number of samples everywhere, and what they took.
-struct Uniform {
-    HalfPictures picture;
-    double seconds = 0, samples = 0;
-};
-
-Uniform render_uniform(const Stage& stage, double wall_seconds)
-{
-    std::vector<Film> films{stage.film(), stage.film()};
-    const WorkMeter meter;
-    uint32_t spp = 4;
-    for (; meter.time().wall < wall_seconds; spp *= 2) {
-        for (size_t s = 0; s < 2; ++s) stage.render(films[s], mix64(1000 + s), spp, 0);
-    }
-    return {make_halves(films), meter.time().processor, static_cast<double>(spp)}; // spp / 2 of each half
-}
-
 using Row = std::vector<std::string>;
 
-/// Mean over pictures, each of another seed.
-Row row_of(const std::string& name, const Stage& stage, const Uniform& uniform, double error, int pictures)
-{
-    double squared = 0, doubt = 0, claim = 0, samples = 0, seconds = 0;
-    for (int k = 0; k < pictures; ++k) {
-        Film film = stage.film();
+/// Pictures that were rendered to one error, each of another seed, and what they took.
+struct Adaptive {
+    double asked = 0, claim = 0, samples = 0, seconds = 0; ///< claim: squared; all but the first are sums
+    std::vector<std::vector<V3d>> pictures;
+
+    void render(const MethodRun& run)
+    {
+        Film film = run.empty_film();
         const WorkMeter meter;
-        const RenderStatistics statistics = stage.render(film, mix64(static_cast<uint64_t>(k)), 1u << 24, error);
-        seconds += meter.time().processor / pictures;
-        std::vector<V3d> means;
-        for (const Pixel& pixel : film.pixels()) means.push_back(pixel.mean());
-        const Measured e = squared_error(means, uniform.picture);
-        squared += e.value / pictures;
-        doubt += e.error * e.error / (pictures * pictures);
-        claim += statistics.error->picture * statistics.error->picture / pictures;
-        samples += statistics.mean_spp / pictures;
+        const RenderStatistics statistics = run.render_apart(film, mix64(pictures.size()), 1u << 24, asked);
+        seconds += meter.time().processor;
+        claim += statistics.error->picture * statistics.error->picture;
+        samples += statistics.mean_spp;
+        pictures.emplace_back();
+        for (const Pixel& pixel : film.pixels()) pictures.back().push_back(pixel.mean());
     }
-    const double noise = estimate_error(uniform.picture, uniform.picture).noise.value;
-    const double truth = std::sqrt(std::max(0.0, squared)), times = noise / squared; // of the uniform pictures' work, to the same error
-    return {name, fmt::format("{:.3g} %", 100 * error), fmt::format("{:.2f} +- {:.2f} %", 100 * truth, 50 * std::sqrt(doubt) / truth), fmt::format("{:.2f} %", 100 * std::sqrt(claim)),
-            fmt::format("{:.0f}", samples), fmt::format("{:.0f}", uniform.samples * times), fmt::format("{:.2f}", seconds), fmt::format("{:.2f}", uniform.seconds * times),
-            fmt::format("{:.2f}", uniform.seconds * times / seconds)};
+};
+
+/// "4.8 +- 0.2 %" of a squared number.
+std::string error_of(const Measured& squared, const Measured& reference_noise)
+{
+    if (!(squared.value > squared.error)) return fmt::format("< {} (ref.)", root_words(std::max(squared.high(), reference_noise.value)));
+    const double root = std::sqrt(squared.value);
+    return fmt::format("{:.2f} +- {:.2f} %", 100 * root, 50 * squared.error / root);
+}
+
+/// uniform: two pictures of as many samples everywhere, the reference. Errors are means over pictures.
+Row row_of(const std::string& name, const Adaptive& adaptive, const MethodRun& uniform)
+{
+    const auto n = static_cast<double>(adaptive.pictures.size());
+    const HalfPictures reference = make_halves(uniform.films());
+    const Measured squared = squared_error(adaptive.pictures, reference), noise = estimate_error(reference, reference).noise;
+    Row row{name, fmt::format("{:.3g} %", 100 * adaptive.asked), error_of(squared, noise), root_words(adaptive.claim / n), root_words(noise.value), fmt::format("{:.0f}", adaptive.samples / n), "-",
+            fmt::format("{:.2f}", adaptive.seconds / n), "-", "-"};
+    if (!(squared.value > squared.error) || !(noise.value > 0)) return row;
+    const double times = noise.value / squared.value; // of the uniform pictures' work, to the same error
+    const double seconds = uniform.total_time().processor * times, ratio = seconds * n / adaptive.seconds;
+    row[6] = fmt::format("{:.0f}", static_cast<double>(uniform.total_samples()) * times);
+    row[8] = fmt::format("{:.2f}", seconds);
+    row[9] = fmt::format("{:.2f} +- {:.2f}", ratio, ratio * std::hypot(squared.error / squared.value, noise.error / noise.value));
+    return row;
 }
 
 } // namespace
@@ -97,19 +70,28 @@ try {
     std::istringstream list(argument(2, "0.05,0.02"));
     for (std::string word; std::getline(list, word, ',');) errors.push_back(std::stod(word));
     const double reference_seconds = std::stod(argument(3, "20")), size = std::stod(argument(5, "0.5"));
-    std::vector<Row> rows{{"scene", "asked", "true", "claimed", "samples", "uniform", "seconds", "uniform", "ratio"}};
-    for (const BenchJob& bench : read_suite(argument(1, "examples/bench/suite.json"), 1)) {
-        if (argc > 6 && bench.title != argv[6]) continue;
-        RenderJob job = bench.scene;
-        job.frames = FrameRange{bench.frame, bench.frame, 1};
-        if (job.size) job.size = std::pair(static_cast<int>(job.size->first * size), static_cast<int>(job.size->second * size));
-        const Stage stage(job);
-        const Uniform uniform = render_uniform(stage, reference_seconds);
-        for (const double error : errors) rows.push_back(row_of(bench.title, stage, uniform, error, std::stoi(argument(4, "2"))));
-        fmt::print(stderr, "{}\n", bench.title);
+    const size_t pictures = std::stoul(argument(4, "2"));
+    std::vector<Row> rows{{"scene", "asked", "true", "claimed", "reference", "samples", "uniform", "seconds", "uniform", "ratio"}};
+    for (BenchJob job : read_suite(argument(1, "examples/bench/suite.json"), 1)) {
+        if (argc > 6 && job.title != argv[6]) continue;
+        if (job.scene.size) job.scene.size = std::pair(static_cast<int>(job.scene.size->first * size), static_cast<int>(job.scene.size->second * size));
+        MethodRun run(job, {"as it is", std::nullopt, std::nullopt}, mix64(1000), 2, Progress());
+        std::vector<Adaptive> adaptives;
+        for (const double error : errors) adaptives.push_back({error, 0, 0, 0, {}});
+        const double each = reference_seconds * this_machine(0).threads / static_cast<double>(pictures * errors.size());
+        double until = 0;
+        for (size_t k = 0; k < pictures; ++k) {
+            for (Adaptive& adaptive : adaptives) { // in turns, as the machine may be faster now and slower then
+                adaptive.render(run);
+                until += each;
+                for (size_t h = 0; h < 2; ++h) run.render_until(h, until / 2, Progress());
+            }
+        }
+        for (const Adaptive& adaptive : adaptives) rows.push_back(row_of(job.title, adaptive, run));
+        fmt::print(stderr, "{}\n", job.title);
     }
-    fmt::print("\nErrors: root of the mean squared relative error; true: against the uniform pictures, less their noise. Samples: a pixel. Seconds: of processors. Uniform: with as many samples everywhere,\n"
-               "to the same true error.\n\n{}", text_table(rows));
+    fmt::print("\nErrors: root of the mean squared relative error; true: of one picture against the uniform ones, less their noise (reference), with a standard error that holds it. Samples: a pixel.\n"
+               "Seconds: of processors. Uniform: with as many samples everywhere, to the same true error. (ref.): no more can be told with this reference.\n\n{}", text_table(rows));
     return 0;
 } catch (const scree::InputError& error) {
     fmt::print(stderr, "{}\n", error.what());

@@ -8,6 +8,14 @@ namespace scree {
 
 namespace {
 
+/// Student's t of 95 in 100 with so many degrees of freedom, by the expansion for many (Fisher, Cornish 1960); of few, that of three.
+double student(double freedom)
+{
+    constexpr double z = 1.959964, z3 = z * z * z, z5 = z3 * z * z;
+    const double f = std::max(freedom, 3.0);
+    return z + (z3 + z) / (4 * f) + (5 * z5 + 16 * z3 + 3 * z) / (96 * f * f);
+}
+
 /// Mean and standard error of values, one a pixel.
 class Mean {
 public:
@@ -18,13 +26,11 @@ public:
         mean_ += delta / n_;
         m2_ += delta * (x - mean_);
     }
-    Measured result() const { return {mean_, n_ > 1 ? std::sqrt(m2_ / (n_ - 1) / n_) : 0}; }
+    Measured result() const { return {mean_, n_ > 1 ? std::sqrt(m2_ / (n_ - 1) / n_) : 0, student(n_ - 1)}; }
 
 private:
     double n_ = 0, mean_ = 0, m2_ = 0;
 };
-
-double sum(const V3d& v) { return v.x + v.y + v.z; }
 
 /// The mean of the neighbours of each pixel, the pixel itself left out.
 std::vector<V3d> surroundings(const HalfPictures& picture)
@@ -48,55 +54,72 @@ std::vector<V3d> surroundings(const HalfPictures& picture)
     return around;
 }
 
-/// As estimate_error says.
-Measured squared_bias(const HalfPictures& picture, const HalfPictures& reference)
+/// What squared errors are multiplied by, a number a pixel, so that they are relative to what is around it.
+std::vector<double> weights_of(const HalfPictures& reference)
 {
-    if (!reference.has_noise()) return {0, std::numeric_limits<double>::infinity()};
     const RelativeError relative(mean_radiance(reference));
-    const std::vector<V3d> around = surroundings(reference);
-    Mean bias;
-    for (size_t p = 0; p < picture.size(); ++p) {
+    std::vector<double> weights;
+    weights.reserve(reference.size());
+    for (const V3d& around : surroundings(reference)) weights.push_back(relative.of(1, around));
+    return weights;
+}
+
+/// The mean over pixels of what `of` says about each, relative. known: whether the noise that it takes off is.
+template <class Of>
+Measured relative_mean(const std::vector<double>& weights, bool known, Of of)
+{
+    Mean mean;
+    for (size_t p = 0; p < weights.size(); ++p) mean.add(weights[p] * of(p));
+    Measured result = mean.result();
+    if (!known) result.error = std::numeric_limits<double>::infinity();
+    return result;
+}
+
+/// As estimate_error says.
+Measured squared_bias(const HalfPictures& picture, const HalfPictures& reference, const std::vector<double>& weights)
+{
+    return relative_mean(weights, reference.has_noise(), [&](size_t p) {
         const V3d r = reference.whole(p);
-        bias.add(relative.of(sum((picture.a[p] - r) * (picture.b[p] - r) - reference.noise(p)), around[p]));
-    }
-    return bias.result();
+        return channel_sum((picture.a[p] - r) * (picture.b[p] - r) - reference.noise(p));
+    });
 }
 
 } // namespace
 
 ErrorEstimate estimate_error(const HalfPictures& picture, const HalfPictures& reference)
 {
-    const V3d truth = mean_radiance(reference);
-    const RelativeError relative(truth);
-    Mean noise, reference_noise, error;
+    const std::vector<double> weights = weights_of(reference);
+    const HalfPictures squares = reduced(picture, smooth_side), reference_squares = reduced(reference, smooth_side);
+    std::vector<V3d> whole;
     V3d difference(0), variance(0);
     for (size_t p = 0; p < picture.size(); ++p) {
-        const V3d r = reference.whole(p), of_reference = reference.noise(p), of_picture = picture.noise(p);
-        const V3d d = picture.whole(p) - r;
-        noise.add(relative.of(sum(of_picture), r));
-        reference_noise.add(relative.of(sum(of_reference), r));
-        error.add(relative.of(sum(d * d - of_reference), r));
-        difference += d;
-        variance += of_picture + of_reference;
+        whole.push_back(picture.whole(p));
+        difference += whole[p] - reference.whole(p);
+        variance += picture.noise(p) + reference.noise(p);
     }
-    ErrorEstimate estimate{noise.result(), squared_bias(picture, reference), squared_bias(reduced(picture, smooth_side), reduced(reference, smooth_side)),
-                           reference_noise.result(), error.result(), {}};
+    ErrorEstimate estimate;
+    estimate.noise = relative_mean(weights, picture.has_noise(), [&](size_t p) { return channel_sum(picture.noise(p)); });
+    estimate.reference_noise = relative_mean(weights, reference.has_noise(), [&](size_t p) { return channel_sum(reference.noise(p)); });
+    estimate.squared_error = squared_error({whole}, reference);
+    estimate.squared_bias = squared_bias(picture, reference, weights);
+    estimate.smooth_bias = squared_bias(squares, reference_squares, weights_of(reference_squares));
+    const V3d truth = mean_radiance(reference);
     for (int c = 0; c < 3; ++c) {
         const double scale = truth[c] * static_cast<double>(picture.size());
-        if (scale > 0) estimate.color[static_cast<size_t>(c)] = {difference[c] / scale, std::sqrt(variance[c]) / scale};
+        if (!(scale > 0)) continue;
+        const double error = reference.has_noise() ? std::sqrt(variance[c]) / scale : std::numeric_limits<double>::infinity();
+        estimate.color[static_cast<size_t>(c)] = {difference[c] / scale, error};
     }
     return estimate;
 }
 
-Measured squared_error(const std::vector<V3d>& picture, const HalfPictures& reference)
+Measured squared_error(const std::vector<std::vector<V3d>>& pictures, const HalfPictures& reference)
 {
-    const RelativeError relative(mean_radiance(reference));
-    Mean error;
-    for (size_t p = 0; p < picture.size(); ++p) {
-        const V3d d = picture[p] - reference.whole(p);
-        error.add(relative.of(sum(d * d - reference.noise(p)), reference.whole(p)));
-    }
-    return error.result();
+    return relative_mean(weights_of(reference), reference.has_noise(), [&](size_t p) {
+        double squares = 0;
+        for (const std::vector<V3d>& picture : pictures) squares += (picture[p] - reference.whole(p)).length2();
+        return squares / static_cast<double>(pictures.size()) - channel_sum(reference.noise(p));
+    });
 }
 
 } // namespace scree

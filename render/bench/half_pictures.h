@@ -33,6 +33,8 @@ HalfPictures make_halves(const std::vector<Film>& films);
 /// The means of squares of `side` pixels: where noise goes down by the side, what neighbours have in common stays.
 HalfPictures reduced(const HalfPictures& picture, int side);
 
+inline double channel_sum(const V3d& v) { return v.x + v.y + v.z; }
+
 /// Mean over all pixels.
 V3d mean_radiance(const HalfPictures& picture);
 

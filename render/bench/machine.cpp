@@ -1,5 +1,7 @@
 #include "render/bench/machine.h"
 
+#include "render/scene/content_hash.h"
+
 #include <fmt/chrono.h>
 
 #include <sched.h>
@@ -22,7 +24,17 @@ Machine this_machine(int threads)
     machine.cores = sched_getaffinity(0, sizeof allowed, &allowed) == 0 ? CPU_COUNT(&allowed) : 1;
     machine.threads = threads > 0 ? threads : machine.cores;
     machine.date = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+    machine.build = build_identity();
     return machine;
+}
+
+const std::string& build_identity()
+{
+    static const std::string identity = [] {
+        const uint64_t empty = hash_bytes(nullptr, 0, 0), hash = hash_file("/proc/self/exe", 0);
+        return hash == empty ? std::string(SCREE_VERSION) : fmt::format("{:016x}", hash);
+    }();
+    return identity;
 }
 
 } // namespace scree

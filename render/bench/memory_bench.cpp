@@ -4,33 +4,30 @@
 // usage: memory_bench [largest count]
 
 #include "mixtures/hash.h"
+#include "render/bench/work_meter.h"
 #include "render/scene/tracer.h"
 
 #include <fmt/format.h>
 
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <memory>
 
 #include <malloc.h>
-#include <unistd.h>
 
 namespace scree {
 namespace {
 
-double resident_bytes()
+double used_bytes()
 {
     malloc_trim(0);
-    uint64_t total = 0, resident = 0;
-    std::ifstream("/proc/self/statm") >> total >> resident;
-    return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE));
+    return static_cast<double>(resident_bytes());
 }
 
 void run(uint64_t count)
 {
     const auto device = std::make_shared<EmbreeDevice>();
-    const double before = resident_bytes();
+    const double before = used_bytes();
     World world;
     world.types.push_back({"grain", Material{}, nullptr});
     GrainStore& grains = world.grains;
@@ -46,11 +43,11 @@ void run(uint64_t count)
         grains.spheres.push_back({place(i % edge, 0), place(i / edge % edge, 1), place(i / edge / edge, 2), static_cast<float>(0.45 * scale)});
     }
     grains.spheres.push_back({});
-    const double stored = resident_bytes();
+    const double stored = used_bytes();
     const auto start = std::chrono::steady_clock::now();
     const Tracer tracer(device, world);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const double built = resident_bytes();
+    const double built = used_bytes();
     const auto n = static_cast<double>(count);
     fmt::print("{:>10} {:>12.1f} {:>12.1f} {:>12.1f} {:>14.2f}\n", count, (stored - before) / n, (built - stored) / n, (built - before) / n, seconds);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace scree {
 
@@ -13,43 +14,65 @@ namespace {
 /// Whether a part is made by computing rather than by reading.
 bool is_precomputed(const std::string& part)
 {
-    for (const char* name : {"gsdf", "walk in the packing", "medium of the grains", "shells", "distances"}) {
+    for (const char* name : {"gsdf", "walk in the packing", "medium of the grains", "shells", "distance", "domain", "fill"}) {
         if (part.rfind(name, 0) == 0) return true;
     }
     return false;
 }
 
-SetupTime split(const std::vector<PartReport>& parts, double all)
+SetupTime split(const std::vector<PartReport>& parts, const WorkTime& all)
 {
     SetupTime time;
     for (const PartReport& part : parts) {
         if (part.part == "acceleration structure") time.build += part.seconds;
         else if (is_precomputed(part.part)) time.precompute += part.seconds;
+        const bool all_shells = part.built && part.part.rfind("shells", 0) == 0 && part.reason.find(", 0 made now") != std::string::npos;
+        if (all_shells || part.reason.find("from the cache") != std::string::npos) time.cached.push_back(part.part);
     }
-    time.read = std::max(0.0, all - time.build - time.precompute);
+    time.read = std::max(0.0, all.wall - time.build - time.precompute);
+    time.all = all;
     return time;
 }
 
 } // namespace
 
 MethodRun::MethodRun(const BenchJob& job, const BenchMethod& method, uint64_t first_seed, size_t pictures, const Progress& progress)
-    : name_(method.name), first_seed_(first_seed), builder_(load_scene(render_job_of(job, method)))
+    : name_(method.name), first_seed_(first_seed)
 {
-    if (job.frame >= builder_.frame_count()) {
-        throw InputError("--frame", std::to_string(job.frame), "0 to " + std::to_string(builder_.frame_count() - 1) + ": the frames that the dump has");
-    }
     const MemoryMeter memory;
-    const Stopwatch watch;
-    std::shared_ptr<const World> world = builder_.build(job.frame, progress);
+    const WorkMeter meter;
+    const RenderJob render = render_job_of(job, method);
+    builder_ = std::make_unique<WorldBuilder>(load_scene(render));
+    if (job.frame >= builder_->frame_count()) {
+        throw InputError("--frame", std::to_string(job.frame), "0 to " + std::to_string(builder_->frame_count() - 1) + ": the frames that the dump has");
+    }
+    std::shared_ptr<const World> world = builder_->build(job.frame, progress);
     if (progress.cancelled()) throw Cancelled();
-    setup_ = std::make_unique<RenderSetup>(builder_, std::move(world), render_job_of(job, method));
-    setup_time_ = split(setup_->parts(), watch.seconds());
+    setup_ = std::make_unique<RenderSetup>(*builder_, std::move(world), render);
+    setup_time_ = split(setup_->parts(), meter.time());
     memory_ = memory.peak();
-    plan_name_ = builder_.plan().name();
-    warnings_ = builder_.warnings();
-    const FilmDescription& film = builder_.scene().film;
-    films_.assign(pictures, Film(film.width, film.height, 0, 0, film.width, film.height));
+    plan_name_ = builder_->plan().name();
+    warnings_ = builder_->warnings();
+    const IntegratorDescription& integrator = builder_->scene().integrator;
+    if (integrator.kind == IntegratorKind::automatic) name_ = "auto " + accuracy_names[static_cast<size_t>(integrator.accuracy)];
+    films_.assign(pictures, empty_film());
     times_.resize(pictures);
+}
+
+Film MethodRun::empty_film() const
+{
+    const FilmDescription& film = builder_->scene().film;
+    return {film.width, film.height, 0, 0, film.width, film.height};
+}
+
+RenderStatistics MethodRun::render_apart(Film& film, uint64_t seed, uint32_t spp, double error) const
+{
+    RenderOptions options = setup_->options();
+    options.timeout = 0;
+    options.seed = seed;
+    options.spp = spp;
+    options.error = error;
+    return render(setup_->world(), setup_->tracer(), setup_->camera(), setup_->filter(), film, options, Progress());
 }
 
 void MethodRun::render_until(size_t picture, double processor_seconds, const Progress& progress)

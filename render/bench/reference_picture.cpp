@@ -2,9 +2,13 @@
 
 #include "ingest/support/error.h"
 #include "render/bench/exr_planes.h"
+#include "render/bench/machine.h"
 #include "render/bench/method_run.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
 
 namespace scree {
 
@@ -101,15 +105,17 @@ ReferencePicture read_reference(const std::filesystem::path& path, int width, in
 {
     const ExrPlanes file = read_exr_planes(path);
     check_size(file, width, height, path);
-    ReferencePicture reference{halves_of(file, path), path.filename().string(), 0, 0};
+    ReferencePicture reference{halves_of(file, path), path.filename().string(), 0, 0, "", ""};
     if (const auto it = file.numbers.find("processorSeconds"); it != file.numbers.end()) reference.processor_seconds = it->second;
     if (const auto it = file.numbers.find("spp"); it != file.numbers.end()) reference.samples = static_cast<uint64_t>(it->second);
+    if (const auto it = file.texts.find("referenceKey"); it != file.texts.end()) reference.key = it->second;
     return reference;
 }
 
 ReferencePicture render_reference(MethodRun& method, const std::filesystem::path& path, uint64_t seed, double processor_seconds, const Progress& progress)
 {
-    const std::string key = fmt::format("{:016x} {} {} {}", method.scene_hash(), method.plan_name(), seed, SCREE_VERSION);
+    const std::string job = fmt::format("{:016x} {} {} ", method.scene_hash(), method.plan_name(), seed), key = job + build_identity();
+    std::string note;
     double before = 0, asked = 0; // seconds of processors: taken, and what they were to be (slices end with whole samples)
     if (std::filesystem::exists(path)) {
         try {
@@ -121,28 +127,46 @@ ReferencePicture render_reference(MethodRun& method, const std::filesystem::path
                 for (size_t h = 0; h < 2; ++h) method.restore(h, film_of(file, half_names[h]));
                 before = file.numbers.at("processorSeconds");
                 asked = file.numbers.at("secondsAsked");
+            } else {
+                const std::filesystem::path aside = path.parent_path() / (path.stem().string() + "-before.exr");
+                std::filesystem::rename(path, aside);
+                note = fmt::format("the reference that was there is of another {}: made again; it is kept as {}, which --reference takes",
+                                   same_size && kept->second.rfind(job, 0) == 0 ? "build of scree" : "scene, size, method or seed", aside.string());
             }
         } catch (const std::out_of_range&) {
             throw InputError(path.string(), "a reference with channels missing", "a whole one", "remove it");
+        } catch (const std::filesystem::filesystem_error& error) {
+            throw InputError(path.string(), error.what(), "a reference that can be moved aside");
         }
     }
-    constexpr int slices = 8;
-    const auto save = [&](int slice) {
-        ExrPlanes file = planes_of(method);
-        const HalfPictures halves = make_halves(method.films());
-        file.texts = {{"software", "Scree"}, {"version", SCREE_VERSION}, {"integrator", method.plan_name()}, {"referenceKey", key}};
-        file.numbers = {{"processorSeconds", before + method.total_time().processor},
-                        {"secondsAsked", before + (processor_seconds - before) * slice / slices},
-                        {"spp", static_cast<double>(method.total_samples())}, {"shareOfA", halves.share}};
-        write_exr_planes(path, file);
+    constexpr double each = 30; // seconds: as much is lost when it is killed
+    const double left = asked < processor_seconds ? std::max(0.0, processor_seconds - before) : 0;
+    const int slices = left > 0 ? std::max(8, static_cast<int>(std::min(1e6, left / each))) : 0;
+    std::optional<ExrPlanes> unsaved;
+    auto save = [&] {
+        if (unsaved) write_exr_planes(path, *unsaved);
+        unsaved.reset();
     };
-    // By halves in turn, in slices, so that little is lost when it is interrupted.
-    for (int slice = 1; slice <= slices && asked < processor_seconds && before < processor_seconds; ++slice) {
-        for (size_t h = 0; h < 2; ++h) method.render_until(h, 0.5 * (processor_seconds - before) * slice / slices, progress);
-        if (slice == slices || slice % 4 == 0) save(slice);
-        progress.update("reference", static_cast<double>(slice) / slices);
+    const Stopwatch watch;
+    double saved = 0;
+    try {
+        for (int slice = 1; slice <= slices; ++slice) { // the halves in turn
+            for (size_t h = 0; h < 2; ++h) method.render_until(h, 0.5 * left * slice / slices, progress);
+            unsaved = planes_of(method);
+            unsaved->texts = {{"software", "Scree"}, {"version", SCREE_VERSION}, {"integrator", method.plan_name()}, {"referenceKey", key}};
+            unsaved->numbers = {{"processorSeconds", before + method.total_time().processor}, {"secondsAsked", before + left * slice / slices},
+                                {"spp", static_cast<double>(method.total_samples())}, {"shareOfA", make_halves(method.films()).share}};
+            if (slice == slices || watch.seconds() > saved + each) {
+                save();
+                saved = watch.seconds();
+            }
+            progress.update("reference", static_cast<double>(slice) / slices);
+        }
+    } catch (const Cancelled&) {
+        save();
+        throw;
     }
-    return {make_halves(method.films()), method.name(), before + method.total_time().processor, method.total_samples()};
+    return {make_halves(method.films()), method.name(), before + method.total_time().processor, method.total_samples(), key, note};
 }
 
 } // namespace scree

@@ -3,9 +3,8 @@
 #include "ingest/support/error.h"
 #include "render/bench/bench_page.h"
 #include "render/bench/bench_report.h"
+#include "render/bench/bench_table.h"
 #include "render/bench/bench_words.h"
-#include "render/bench/flip.h"
-#include "render/bench/text_table.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -14,102 +13,61 @@ namespace scree {
 
 namespace {
 
-using Row = std::vector<std::string>;
-
-const Row head{"scene", "method", "does", "set up", "unit variance", "against ept", "noise", "error", "bias (95 %)", "bias of 8x8", "colour", "FLIP", "rays + events/s"};
-
-/// How many times sooner than ept a method brings its variance to the same.
-std::string gain_words(const MethodResult& method, const BenchResult& result)
+std::vector<TableRow> all_rows(const SuiteResult& suite)
 {
-    for (const MethodResult& other : result.methods) {
-        if (other.name != "ept" || method.time_to_unit_variance() <= 0) continue;
-        return &other == &method ? "1" : fmt::format("{:.2g} x", other.time_to_unit_variance() / method.time_to_unit_variance());
-    }
-    return "-";
-}
-
-/// The mean colour's error in the channel where it is largest against chance.
-std::string worst_color_words(const ErrorEstimate& estimate)
-{
-    const auto z = [](const Measured& m) { return m.error > 0 ? std::abs(m.value) / m.error : 0; };
-    const Measured* worst = &estimate.color[0];
-    for (const Measured& m : estimate.color)
-        if (z(m) > z(*worst)) worst = &m;
-    return color_words(*worst);
-}
-
-std::vector<Row> rows_of(const BenchResult& result)
-{
-    std::vector<Row> rows;
-    for (const MethodResult& m : result.methods) {
-        const RenderStatistics& s = m.statistics;
-        rows.push_back({result.title, m.name, m.plan, seconds_words(m.setup.read + m.setup.precompute + m.setup.build), seconds_words(m.time_to_unit_variance()), gain_words(m, result),
-                        root_words(m.estimate.noise.value), error_words(m.estimate), bias_words(m.estimate.squared_bias), bias_words(m.estimate.smooth_bias), worst_color_words(m.estimate), fmt::format("{:.3f}", mean_flip(m.flip)),
-                        count_words(rate(s.segments + s.shadow_rays + s.events + s.shells, m))});
+    std::vector<TableRow> rows;
+    for (const BenchResult& result : suite.scenes) {
+        for (TableRow& row : table_rows(result)) rows.push_back(std::move(row));
     }
     return rows;
 }
 
-std::vector<Row> all_rows(const std::vector<BenchResult>& results)
+/// Part of its threads' time in which all rendering had a processor.
+double share_of(const SuiteResult& suite)
 {
-    std::vector<Row> rows;
-    for (const BenchResult& result : results) {
-        for (Row& row : rows_of(result)) rows.push_back(std::move(row));
-    }
-    return rows;
+    double share = 0;
+    for (const BenchResult& result : suite.scenes) share += result.processor_share() / static_cast<double>(suite.scenes.size());
+    return share;
 }
 
-constexpr const char* about = "Unit variance: processor time until the relative variance is 1; against ept: how many times sooner than by tracing every grain. Errors are relative, root mean square. "
-                              "A bias no larger than chance brings is not measured, with the most that it may be; of means of squares of 8x8 pixels smaller ones can be. Colour: error of the picture's mean in the worst channel, with one standard error.";
-
-std::string machine_line(const std::vector<BenchResult>& results, double seconds)
+std::string machine_line(const SuiteResult& suite)
 {
-    return fmt::format("{}; {:.1f} minutes in all", results.empty() ? "" : machine_words(results.front().machine), seconds / 60);
+    return fmt::format("{}, times scaled by {:g}; {:.1f} minutes in all", machine_words(suite.scenes.front().machine, share_of(suite)), suite.scale, suite.seconds / 60);
 }
 
 } // namespace
 
-std::string suite_table(const std::vector<BenchResult>& results, double seconds)
-{
-    std::vector<Row> rows = all_rows(results);
-    for (size_t i = rows.size(); i-- > 1;)
-        if (rows[i][0] == rows[i - 1][0]) rows[i][0] = "";
-    rows.insert(rows.begin(), head);
-    return machine_line(results, seconds) + "\n" + text_table(rows);
-}
+std::string suite_table(const SuiteResult& suite) { return machine_line(suite) + "\n" + terminal_table(suite.scenes); }
 
-std::string suite_markdown(const std::vector<BenchResult>& results, double seconds, bool plots)
+std::string suite_markdown(const SuiteResult& suite, bool plots)
 {
-    std::string text = machine_line(results, seconds) + ".\n\n";
-    const auto line = [](const Row& row) { return fmt::format("| {} |\n", fmt::join(row, " | ")); };
-    text += line(head) + line(Row(head.size(), "---"));
-    for (const Row& row : all_rows(results)) text += line(row);
-    text += fmt::format("\n{}\n", about);
+    std::string text = fmt::format("Made by `{}`. {}.\n\n", suite.command, machine_line(suite));
+    const auto line = [](const TableRow& row) { return fmt::format("| {} |\n", fmt::join(row, " | ")); };
+    text += line(table_head) + line(TableRow(table_head.size(), "---"));
+    for (const TableRow& row : all_rows(suite)) text += line(row);
+    text += fmt::format("\n{}\n", table_legend);
     if (!plots) return text;
-    for (const BenchResult& result : results) {
-        text += fmt::format("\n## {0}\n\n{1}x{2}, reference by {3}, {4} samples a pixel\n\n![error against time of {0}]({0}.svg)\n", result.title, result.width(), result.height(),
-                            result.reference.name, result.reference.samples);
-    }
+    text += fmt::format("\nPlots: {}\n", plot_legend);
+    for (const BenchResult& result : suite.scenes) text += fmt::format("\n## {0}\n\n{1}\n\n![error against time of {0}]({0}.svg)\n", result.job.title, scene_words(result));
     return text;
 }
 
-std::string suite_page(const std::vector<BenchResult>& results, double seconds)
+std::string suite_page(const SuiteResult& suite)
 {
-    std::string html = page_head("Scree: time against error", machine_line(results, seconds));
-    html += page_section("All scenes", about, html_table(head, all_rows(results)));
-    for (const BenchResult& result : results) {
-        html += page_section(result.title, fmt::format("{}, frame {}, {}x{}, {} seeds; reference: {}, {} samples a pixel", result.scene, result.frame, result.width(), result.height(), result.seeds,
-                                                       result.reference.name, result.reference.samples),
-                             "<div class=\"plots\"><figure>" + svg_of(convergence_plot(result)) + "</figure></div>\n");
-    }
+    std::string html = page_head("Scree: time against error", fmt::format("{}. {}", suite.command, machine_line(suite)));
+    html += page_section("All scenes", table_legend, html_table(table_head, all_rows(suite))) + page_section("Convergence", plot_legend, "");
+    for (const BenchResult& result : suite.scenes) html += page_section(result.job.title, scene_words(result), plot_figure(result));
     return html + page_end();
 }
 
-std::string suite_json(const std::vector<BenchResult>& results, double seconds)
+std::string suite_json(const SuiteResult& suite)
 {
     nlohmann::json scenes = nlohmann::json::array();
-    for (const BenchResult& result : results) scenes.push_back(nlohmann::json::parse(json_of(result)));
-    return nlohmann::json{{"version", SCREE_VERSION}, {"seconds", seconds}, {"scenes", scenes}}.dump(1) + "\n";
+    for (const BenchResult& result : suite.scenes) scenes.push_back(nlohmann::json::parse(json_of(result)));
+    const Machine& m = suite.scenes.front().machine;
+    return nlohmann::json{{"version", SCREE_VERSION}, {"build", m.build}, {"command", suite.command}, {"scale", suite.scale}, {"seconds", suite.seconds}, {"threads", m.threads},
+                          {"date", m.date}, {"processor_share", share_of(suite)}, {"scenes", scenes}}
+               .dump(1) + "\n";
 }
 
 std::string with_block(const std::string& text, const std::string& block, const std::string& file)

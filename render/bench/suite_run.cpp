@@ -5,9 +5,6 @@
 #include "render/bench/bench_page.h"
 #include "render/bench/bench_report.h"
 #include "render/bench/bench_run.h"
-#include "render/bench/suite_report.h"
-
-#include <fmt/format.h>
 
 #include <fstream>
 #include <iterator>
@@ -42,28 +39,26 @@ BenchResult run_and_write(const BenchJob& job, const Progress& progress)
     return result;
 }
 
-void run_suite(const std::vector<BenchJob>& jobs, const std::filesystem::path& folder, const std::filesystem::path& readme, const Progress& progress)
+void run_suite(const std::vector<BenchJob>& jobs, SuiteResult& suite, const std::filesystem::path& folder, const std::filesystem::path& readme, const Progress& progress)
 {
     make_folder(folder, {"index.html", "README.md", "suite.json"});
     if (!readme.empty()) with_block(text_of(readme), "", readme.string());
     const Stopwatch watch;
-    std::vector<BenchResult> results;
     for (BenchJob job : jobs) {
         job.folder = folder / "details" / job.title;
-        progress.update(job.title, static_cast<double>(results.size()) / static_cast<double>(jobs.size()));
+        progress.update(job.title, static_cast<double>(suite.scenes.size()) / static_cast<double>(jobs.size()));
         BenchResult result = run_and_write(job, progress);
-        write_whole(folder / (job.title + ".svg"), svg_of(convergence_plot(result)));
         result.reference.picture = {result.width(), result.height(), {}, {}, {}, result.reference.picture.share, result.reference.picture.halved}; // shown; only its size is asked for from here on
         for (MethodResult& m : result.methods) m.picture = {};
-        results.push_back(std::move(result));
+        suite.scenes.push_back(std::move(result));
     }
-    const double seconds = watch.seconds();
-    write_whole(folder / "suite.json", suite_json(results, seconds));
-    write_whole(folder / "index.html", suite_page(results, seconds));
-    write_whole(folder / "README.md", "# Time against error\n\nMade by `scree bench --suite`. " + suite_markdown(results, seconds, true));
-    if (!readme.empty()) write_whole(readme, with_block(text_of(readme), suite_markdown(results, seconds, false), readme.string()));
+    suite.seconds = watch.seconds();
+    for (const BenchResult& result : suite.scenes) write_whole(folder / (result.job.title + ".svg"), svg_of(convergence_plot(result)));
+    write_whole(folder / "suite.json", suite_json(suite));
+    write_whole(folder / "index.html", suite_page(suite));
+    write_whole(folder / "README.md", "# Time against error\n\n" + suite_markdown(suite, true));
+    if (!readme.empty()) write_whole(readme, with_block(text_of(readme), suite_markdown(suite, false), readme.string()));
     progress.update("suite", 1);
-    fmt::print("{}  page: {}\n", suite_table(results, seconds), (folder / "index.html").string());
 }
 
 } // namespace scree

@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <atomic>
 #include <fstream>
 #include <string>
 
@@ -31,6 +32,17 @@ uint64_t status_bytes(const std::string& key)
     return 0;
 }
 
+/// The kernel's peak, which meters set back: of this process, and so the one thing that is global here.
+std::atomic<uint64_t> peak_before{0};
+
+uint64_t kernel_peak()
+{
+    if (const uint64_t bytes = status_bytes("VmHWM"); bytes > 0) return bytes;
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
+}
+
 } // namespace
 
 WorkMeter::WorkMeter() : start_(now()) {}
@@ -43,20 +55,16 @@ WorkTime WorkMeter::time() const
 
 MemoryMeter::MemoryMeter()
 {
+    peak_before = peak_bytes();
     malloc_trim(0); // what others gave back would hide what is taken now
     std::ofstream("/proc/self/clear_refs") << "5"; // sets the peak back to what is in use (proc(5))
     start_ = resident_bytes();
 }
 
-uint64_t MemoryMeter::peak() const { return std::max(status_bytes("VmHWM"), start_) - start_; }
+uint64_t MemoryMeter::peak() const { return std::max(kernel_peak(), start_) - start_; }
 
 uint64_t resident_bytes() { return status_bytes("VmRSS"); }
 
-uint64_t peak_bytes()
-{
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
-}
+uint64_t peak_bytes() { return std::max(peak_before.load(), kernel_peak()); }
 
 } // namespace scree

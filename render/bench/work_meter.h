@@ -37,7 +37,7 @@ private:
     uint64_t start_ = 0;
 };
 
-/// Bytes in use now, and the most there ever were (of this program).
+/// Bytes of this program in use now, and the most there ever were, whatever meters were made in between.
 uint64_t resident_bytes();
 uint64_t peak_bytes();
 

@@ -4,6 +4,10 @@
 #include "mixtures/hash.h"
 
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
 #include <vector>
 
 namespace scree {
@@ -30,6 +34,14 @@ uint64_t hash_vector(const std::vector<T>& v, uint64_t seed)
 inline uint64_t hash_mesh(const TriangleMesh& mesh, uint64_t seed)
 {
     return hash_vector(mesh.triangles, hash_vector(mesh.positions, seed));
+}
+
+/// Of a file's bytes; of one that cannot be read as of an empty one.
+inline uint64_t hash_file(const std::filesystem::path& file, uint64_t seed)
+{
+    std::ifstream in(file, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    return hash_bytes(bytes.data(), bytes.size(), seed);
 }
 
 } // namespace scree

@@ -10,6 +10,7 @@
 #include "render/scene/grain_facts.h"
 #include "render/scene/light_builder.h"
 #include "render/scene/medium_builder.h"
+#include "render/scene/mixture_hash.h"
 #include "render/scene/planned_media.h"
 #include "render/lights/environment_file.h"
 
@@ -245,7 +246,7 @@ void WorldBuilder::Impl::make_fill(const TypeRequest& request, World& world)
         for (uint32_t type = 0; type < used.size(); ++type) used[type] = possible->contains(type);
     }
     hash = types.build(scene.types, used, request, world, hash);
-    hash = hash_mesh(spheres.domain().mesh(), hash);
+    hash = hash_mesh(spheres.domain().mesh(), hash_mixture(scene.mixture, scene.file.parent_path(), hash));
     hash = hash_vector(spheres.tile().radius, hash_vector(spheres.tile().type, hash));
     for (const auto& variant : spheres.tile().variants) hash = hash_vector(variant, hash);
 }
@@ -332,8 +333,7 @@ LightSet WorldBuilder::Impl::make_lights(const World& world)
 WorldBuilder::WorldBuilder(SceneDescription scene) : impl_(std::make_unique<Impl>(std::move(scene)))
 {
     if (impl_->scene.types.size() > 256) {
-        throw InputError(impl_->scene.file.string() + ": /grains/types", fmt::format("{} grain types", impl_->scene.types.size()),
-                         "at most 256");
+        throw InputError(impl_->scene.file.string() + ": /grains/types", fmt::format("{} grain types", impl_->scene.types.size()), "at most 256");
     }
     const auto& assembly = impl_->scene.assembly;
     if (assembly && !assembly->dump.empty() && !is_points_file(assembly->dump)) impl_->series = DumpSeries::open(assembly->dump);

@@ -12,6 +12,7 @@ namespace scree {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 boost::property_tree::ptree parsed(const std::string& svg)
 {
@@ -82,6 +83,35 @@ TEST(SvgPlot, LogarithmicDecades)
     EXPECT_THAT(svg, HasSubstr(">-3</tspan>"));
     EXPECT_THAT(svg, HasSubstr(">3</tspan>"));
     EXPECT_THAT(svg, HasSubstr("306.00 ")); // 1 is in the middle
+}
+
+TEST(SvgPlot, FewDecadesHaveLabelsOfTwoAndFive)
+{
+    Plot plot = line_of({0.01, 0.3}, {1, 2});
+    plot.log_x = true;
+    const std::string svg = svg_of(plot);
+    for (const char* label : {">0.01<", ">0.02<", ">0.05<", ">0.2<"}) EXPECT_THAT(svg, HasSubstr(label));
+    EXPECT_THAT(svg, Not(HasSubstr(">0.03<")));
+}
+
+TEST(SvgPlot, RingsAreDrawnOnTheEdgeWhereThereIsNoValue)
+{
+    Plot plot;
+    plot.log_y = true;
+    plot.series.push_back({"a", PlotSeries::Style::line, {1, 2, 3}, {1, 0.1, 0}, {}, {false, true, true}});
+    std::string svg = svg_of(plot);
+    const auto count = [&](const char* what) {
+        size_t n = 0;
+        for (size_t at = svg.find(what); at != std::string::npos; at = svg.find(what, at + 1)) ++n;
+        return n;
+    };
+    EXPECT_EQ(count("<circle"), 3u);
+    EXPECT_EQ(count("fill=\"#fff\""), 2u);
+    EXPECT_THAT(svg, HasSubstr("cy=\"279.00\"")); // on the axis at 282
+    EXPECT_EQ(count("dasharray"), 0u);
+    for (int i = 0; i < 6; ++i) plot.series.push_back(plot.series[0]);
+    svg = svg_of(plot);
+    EXPECT_EQ(count("dasharray"), 2u); // the seventh, and its key
 }
 
 } // namespace

@@ -77,6 +77,51 @@ TEST(ErrorEstimate, FindsTheNoiseOfBothAndTheirErrorApart)
     EXPECT_NEAR(error.mean(), relative_square(0.2), 4 * error.standard_error() + 0.02 * relative_square(0.2));
 }
 
+/// Noise as caustics have it: nearly always a little too dark, and rarely far too bright.
+struct Fireflies {
+    std::mt19937_64 random;
+    double operator()() { return std::bernoulli_distribution(0.005)(random) ? 14 : -0.07; }
+};
+
+// Relative to itself a reference would weigh its fireflies less than their absence: there would be a squared bias of about 0.0012.
+TEST(ErrorEstimate, AddsUpWithFirefliesInTheReference)
+{
+    Estimate bias, gap;
+    Fireflies of{std::mt19937_64(7)};
+    Noise quiet{std::mt19937_64(9)};
+    for (int k = 0; k < repeats; ++k) {
+        HalfPictures reference{width, height, {}, {}, {}};
+        for (const V3d& t : truth()) {
+            for (std::vector<V3d>* half : {&reference.a, &reference.b}) half->push_back(t * (1 + 0.5 * of()));
+        }
+        const ErrorEstimate e = estimate_error(picture_of(1, 0.02, quiet), reference);
+        bias.add(e.squared_bias.value);
+        gap.add(e.squared_error.value - e.noise.value);
+        EXPECT_NEAR(e.squared_error.value, e.noise.value + e.squared_bias.value, 1e-12); // halves of equal share: exactly
+    }
+    EXPECT_LT(std::abs(bias.z(0)), 4);
+    EXPECT_LT(std::abs(gap.z(0)), 4);
+    EXPECT_LT(bias.standard_error(), 0.0006);
+}
+
+TEST(ErrorEstimate, KnowsItsStandardErrors)
+{
+    Noise of{std::mt19937_64(8)};
+    Estimate value;
+    double claimed = 0;
+    const std::vector<V3d> exact = truth();
+    for (int k = 0; k < repeats; ++k) {
+        std::vector<std::vector<V3d>> pictures;
+        for (int s = 0; s < 2; ++s) pictures.push_back(picture_of(1, 0.1, of).a);
+        const Measured m = squared_error(pictures, picture_of(1, 0.1, of));
+        value.add(m.value);
+        claimed += m.error / repeats;
+    }
+    const double scatter = value.standard_error() * std::sqrt(repeats);
+    EXPECT_GT(claimed, 0.85 * scatter);
+    EXPECT_LT(claimed, 2 * scatter);
+}
+
 class Unbiased : public testing::TestWithParam<bool> {};
 
 TEST_P(Unbiased, HasABiasOfNothingWithinItsInterval)
@@ -148,6 +193,9 @@ TEST(ErrorEstimate, ClaimsNoBiasAgainstAReferenceOfUnknownNoise)
     const ErrorEstimate e = estimate_error(picture_of(1, 0.1, of), reference);
     EXPECT_FALSE(e.squared_bias.is_above_zero());
     EXPECT_FALSE(std::isfinite(e.squared_bias.error));
+    EXPECT_FALSE(std::isfinite(e.squared_error.error));
+    EXPECT_FALSE(std::isfinite(e.color[0].error));
+    EXPECT_FALSE(e.is_below_reference());
 }
 
 TEST(HalfPictures, WeighsHalvesByTheirSamples)

@@ -3,6 +3,7 @@
 #include "ingest/vdb_point_stream.h"
 #include "packing/list_fill.h"
 #include "packing/tile_generator.h"
+#include "render/render_setup.h"
 #include "tests/builders/shapes.h"
 #include "tests/render/scene_files.h"
 
@@ -91,6 +92,34 @@ Picture picture(const std::string& scene, uint32_t spp, int threads = 0)
         job.spp = spp;
         if (threads > 0) job.threads = threads;
     });
+}
+
+TEST(FillScene, IsAnotherWhenAFileOfItsMixtureIs)
+{
+    const TemporaryFolder folder;
+    FillScene scene{folder};
+    scene.write_parts();
+    const std::string file = scene.write_fill();
+    const std::string text = read_bytes(file);
+    const auto hash = [&](const std::string& mixture, const std::string& table) {
+        write_text(scene.path("m.json"), mixture);
+        std::string rows = "type\n";
+        for (int i = 0; i < 300; ++i) rows += table + "\n";
+        write_text(scene.path("table.csv"), rows);
+        const size_t at = text.find("{\"kind\": \"random\"");
+        write_text(file, text.substr(0, at) + R"({"file": "m.json"})" + text.substr(text.find('}', at) + 1));
+        RenderJob job;
+        job.scene = file;
+        WorldBuilder builder(load_scene(job));
+        builder.build(0);
+        return builder.scene_hash();
+    };
+    const std::string random = R"({"kind": "random", "types": ["glass", "clay"], "weights": [1, 1], "seed": 5})";
+    EXPECT_EQ(hash(random, "clay"), hash(random, "clay"));
+    EXPECT_NE(hash(random, "clay"), hash(R"({"kind": "random", "types": ["glass", "clay"], "weights": [1, 1], "seed": 6})", "clay"));
+    const std::string listed = R"({"kind": "explicit", "table": "table.csv"})";
+    EXPECT_EQ(hash(listed, "clay"), hash(listed, "clay"));
+    EXPECT_NE(hash(listed, "clay"), hash(listed, "glass"));
 }
 
 // Four grain types, two of them meshes, a floor through the fill: some 10^6 segments in all.
