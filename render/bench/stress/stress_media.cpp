@@ -68,6 +68,7 @@ StressFinding against_half_space(double optical_radius, double albedo, const Str
                                            : compare_loss(picture.film, 1 - radiance, std::min(0.03, bias * radiance / (1 - radiance)));
     finding.count(picture.statistics);
     finding.remark += fmt::format("; {:.3g} vertices a path, longest {} segments", finding.length(), finding.longest);
+    if (optical_radius > 1e7) finding.may_leak = 2e-4; // so near to a face rounding loses some rays, which go on as if they had met it
     return finding;
 }
 
@@ -145,13 +146,16 @@ void add_medium_cases(StressRun& run)
     struct Thick {
         double albedo;
         uint32_t steps, shells; // samples a pixel of 64; none where scattering by scattering takes too long
+        double must_see;        // of what is absorbed, where that is little: 10 % of it at 0.9999 is 0.3 % of the light
     };
-    for (const Thick& t : {Thick{0.5, 4096, 4096}, {0.9, 4096, 4096}, {0.99, 4096, 8192}, {0.9999, 8192, 16384}, {0.999999, 0, 65536}}) {
+    for (const Thick& t : {Thick{0.5, 4096, 4096, 0.03}, {0.9, 4096, 4096, 0.03}, {0.99, 4096, 8192, 0.05}, {0.9999, 2048, 4096, 0.12}, {0.999999, 0, 16384, 0.15}}) {
         for (const IntegratorKind kind : medium_kinds) {
             const uint32_t spp = kind == IntegratorKind::vpt ? t.steps : t.shells;
             if (spp == 0) continue;
             run.add(fmt::format("albedo {}, {}", t.albedo, name_of(kind)), t.albedo == 0.9 && kind == IntegratorKind::vpt ? StressExtent::quick : StressExtent::full, [&] {
-                return against_half_space(1e6, t.albedo, {.kind = kind, .accuracy = Accuracy::draft, .spp = spp}, run.progress());
+                StressFinding finding = against_half_space(1e6, t.albedo, {.kind = kind, .accuracy = Accuracy::draft, .spp = spp}, run.progress());
+                finding.must_see = t.must_see;
+                return finding;
             });
         }
     }
@@ -194,19 +198,20 @@ void add_medium_cases(StressRun& run)
             });
         }
         run.add("sigma_t 1e-30, albedo 0.5, " + name_of(kind), StressExtent::quick, [&] { return furnace(cube_of_medium(1e-30, 0.5, 0), view, run.progress()); });
-        if (kind == IntegratorKind::stf) run.add("optical radius 1e6, albedo 0.999, g 0.999, vpt and stf", StressExtent::full, [&] {
-            const StressScene cube = cube_of_medium(1e6, 0.999, 0.999);
-            const StressView stepwise{.kind = IntegratorKind::vpt, .spp = 1024}, shells{.kind = kind, .accuracy = Accuracy::draft, .spp = 1024, .seed = 2};
-            StressFinding finding = two_ways(cube, stepwise, shells, 0.01, run.progress());
-            finding.must_see = 0.05; // most light is lost before it turns back
-            return finding;
+        if (kind == IntegratorKind::stf) run.add("optical radius 1e6, g 0.999, at 3 degrees, vpt and stf", StressExtent::full, [&] {
+            StressScene cube = cube_of_medium(1e6, 0.99, 0.999); // from above hardly any light would come back
+            cube.description.camera.origin = V3d(-3 * std::cos(0.05), 0, 1 + 3 * std::sin(0.05));
+            cube.description.camera.target = V3d(0, 0, 1);
+            cube.description.camera.width = 0.01;
+            const StressView stepwise{.kind = IntegratorKind::vpt, .spp = 2048}, shells{.kind = kind, .accuracy = Accuracy::draft, .spp = 2048, .seed = 2};
+            return two_ways(cube, stepwise, shells, 0.01, run.progress());
         });
         // Of a channel that scatters much less than that a path was made for little is seen: it costs many paths.
         for (const Color& sigma : {Color(16, 4, 1), kind == IntegratorKind::vpt ? Color(32, 0.1f, 1e-3f) : Color(1e3f, 1, 1e-3f)}) {
             run.add(fmt::format("sigma_t {:g}, {:g}, {:g}, lossless, {}", sigma.x, sigma.y, sigma.z, name_of(kind)), sigma.y == 4 ? StressExtent::quick : StressExtent::full, [&] {
                 StressScene cube = cube_of_medium(1, 1, 0);
                 cube.description.media[0].sigma_t = sigma;
-                const StressView coloured{.kind = kind, .accuracy = Accuracy::draft, .spp = sigma.y == 4 ? 1024u : 2048u};
+                const StressView coloured{.kind = kind, .accuracy = Accuracy::draft, .spp = sigma.y == 4 ? 1024u : 1408u};
                 const StressPicture picture = StressStage(cube, {}, coloured, run.progress()).render(coloured, run.progress());
                 StressFinding finding = compare_truth(picture.film, std::vector<double>(picture.film.pixels().size(), 1), 4);
                 finding.count(picture.statistics);

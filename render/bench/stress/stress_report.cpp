@@ -25,7 +25,8 @@ double StressFinding::length() const { return static_cast<double>(segments + eve
 
 bool StressFinding::passed() const
 {
-    return deviation <= allowed && sees <= must_see && non_finite == 0 && leaks == 0 && stopped == 0 && length() >= least_length;
+    return deviation <= allowed && sees <= must_see && non_finite == 0 && stopped == 0 && length() >= least_length &&
+           static_cast<double>(leaks) <= may_leak * static_cast<double>(paths);
 }
 
 bool StressReport::passed() const

@@ -19,6 +19,7 @@ struct StressFinding {
     std::string remark;   ///< where, and what else is worth knowing
     uint64_t paths = 0, segments = 0, events = 0, shells = 0, non_finite = 0;
     uint64_t leaks = 0;   ///< rays lost between two triangles
+    double may_leak = 0;  ///< of all paths
     uint64_t stopped = 0; ///< paths given up as time ran out
     double least_length = 0; ///< that paths must have in the mean, for the case to be about long ones
     uint64_t longest = 0; ///< vertices of the longest path: segments, and events in media where they count
