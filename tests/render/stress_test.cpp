@@ -64,6 +64,23 @@ TEST(StressComparison, FailsRarelyAndSeesWhatItSays)
     EXPECT_LE(compare_means(noise(1, 0), noise(2, 0.01), 6, 0.05).deviation, half.allowed);
 }
 
+TEST(StressComparison, LossIsSeenNearOne)
+{
+    Film film(8, 8, 0, 0, 8, 8);
+    for (Pixel& pixel : film.pixels()) {
+        for (int s = 0; s < 1000; ++s) pixel.add(Color(s % 500 == 0 ? 0.f : 1.f), {});
+    }
+    const StressFinding right = compare_loss(film, 0.002), none = compare_loss(film, 0.003);
+    EXPECT_LE(right.deviation, right.allowed);
+    EXPECT_GT(none.deviation, none.allowed);
+    Film whole(8, 8, 0, 0, 8, 8);
+    for (Pixel& pixel : whole.pixels()) {
+        for (int s = 0; s < 1000; ++s) pixel.add(Color(1), {});
+    }
+    const StressFinding dropped = compare_loss(whole, 0.002, 0.03);
+    EXPECT_GT(dropped.deviation, dropped.allowed) << "nothing absorbed where 0.2 % should be";
+}
+
 TEST(StressComparison, LevelIsSharedByTheTests)
 {
     EXPECT_NEAR(critical_z(0.05, 1), 1.95996, 1e-4);
@@ -82,6 +99,19 @@ TEST(StressComparison, NonFiniteAndUnfinishedFail)
     c.finding.stopped = 1;
     EXPECT_FALSE(c.passed());
     c.finding.stopped = 0;
+    c.finding.leaks = 1;
+    EXPECT_FALSE(c.passed()) << "a lost ray";
+    c.finding.leaks = 0;
+    c.finding.sees = 0.04;
+    EXPECT_FALSE(c.passed()) << "too noisy to see 3 %";
+    c.finding.must_see = 0.05;
+    EXPECT_TRUE(c.passed());
+    c.finding.paths = 4;
+    c.finding.segments = 40;
+    c.finding.least_length = 11;
+    EXPECT_FALSE(c.passed()) << "not a long path";
+    c.finding.least_length = 10;
+    EXPECT_TRUE(c.passed());
     c.finding.deviation = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(c.passed());
 }

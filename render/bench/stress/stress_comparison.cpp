@@ -46,12 +46,13 @@ StressFinding compare(const PixelMean& a, const PixelMean& b, int width, int hei
     StressFinding finding;
     finding.unit = "sigma";
     int tests = 0;
-    double whole_error = 0, whole_difference = 0;
+    double whole_error = 0, whole_unseen = 0, whole_difference = 0;
     std::string where;
     const auto test = [&](int x0, int y0, int x1, int y1, int channel) {
         const Mean ma = mean_over(a, x0, y0, x1, y1, channel), mb = mean_over(b, x0, y0, x1, y1, channel);
         const double scale = std::max(std::abs(ma.value), std::abs(mb.value)), error = std::sqrt(ma.variance + mb.variance);
-        const double difference = std::max(0.0, std::abs(ma.value - mb.value) - (bias + rounding) * scale - 1 / (samples * (x1 - x0) * (y1 - y0)));
+        const double unseen = 1 / (samples * (x1 - x0) * (y1 - y0));
+        const double difference = std::max(0.0, std::abs(ma.value - mb.value) - (bias + rounding) * scale - unseen);
         const double z = difference > 0 ? difference / error : 0;
         ++tests;
         if (!(z <= finding.deviation)) {
@@ -60,6 +61,7 @@ StressFinding compare(const PixelMean& a, const PixelMean& b, int width, int hei
         }
         if (x1 - x0 == width && y1 - y0 == height && scale > 0) {
             whole_error = std::max(whole_error, error / scale);
+            whole_unseen = std::max(whole_unseen, unseen / scale);
             whole_difference = std::max(whole_difference, std::abs(ma.value - mb.value) / scale);
         }
     };
@@ -71,7 +73,7 @@ StressFinding compare(const PixelMean& a, const PixelMean& b, int width, int hei
     }
     finding.allowed = critical_z(stress_level, tests);
     constexpr double nine_in_ten = 1.2816;
-    finding.sees = bias + (finding.allowed + nine_in_ten) * whole_error;
+    finding.sees = bias + whole_unseen + (finding.allowed + nine_in_ten) * whole_error;
     finding.remark = fmt::format("whole picture off by {:.2g} %", 100 * whole_difference);
     if (finding.deviation > finding.allowed) finding.remark += "; " + where;
     return finding;
@@ -104,6 +106,16 @@ StressFinding compare_truth(const Film& a, const std::vector<double>& truth, int
 {
     const auto exact = [&](int x, int y, int) { return Mean{truth[static_cast<size_t>(y) * static_cast<size_t>(a.width()) + static_cast<size_t>(x)], 0}; };
     return compare(means_of(a), exact, a.width(), a.height(), block, bias, a.at(0, 0).samples);
+}
+
+StressFinding compare_loss(const Film& a, double loss, double bias)
+{
+    const auto lost = [&a](int x, int y, int channel) {
+        const Mean m = pixel_mean(a, x, y, channel);
+        return Mean{1 - m.value, m.variance};
+    };
+    const auto exact = [&](int, int, int) { return Mean{loss, 0}; };
+    return compare(lost, exact, a.width(), a.height(), std::max(a.width(), a.height()), bias, a.at(0, 0).samples);
 }
 
 StressFinding compare_bits(const Film& a, const Film& b)

@@ -20,6 +20,9 @@ StressFinding compare_means(const Film& a, const Film& b, int block = 8, double 
 /// The same against what every pixel should be, grey.
 StressFinding compare_truth(const Film& a, const std::vector<double>& truth, int block = 8, double bias = 0);
 
+/// What the whole picture lacks to 1 against what it should lack, where that is little; bias: relative to it.
+StressFinding compare_loss(const Film& a, double loss, double bias = 0);
+
 /// How many pixels have not the same bits.
 StressFinding compare_bits(const Film& a, const Film& b);
 

@@ -1,6 +1,7 @@
 // The white furnace: lossless things in a surrounding of radiance 1 are invisible.
 
-#include "render/bench/stress/stress_run.h"
+#include "render/bench/stress/stress_furnace.h"
+
 #include "render/bench/stress/stress_scenes.h"
 
 #include <fmt/format.h>
@@ -8,8 +9,6 @@
 namespace scree {
 
 namespace {
-
-constexpr double float_paths = 1e-5;
 
 /// White from everywhere as two halves of a sky that are sampled, so that what scatters must weigh them right.
 StressFinding sampled_furnace(StressScene scene, const StressView& view, const Progress& progress)
@@ -26,17 +25,6 @@ StressFinding sampled_furnace(StressScene scene, const StressView& view, const P
     const StressPicture picture = StressStage(scene, {}, view, progress).render(view, progress);
     StressFinding finding = compare_truth(picture.film, std::vector<double>(picture.film.pixels().size(), 1), 4);
     finding.count(picture.statistics);
-    return finding;
-}
-
-StressFinding furnace(StressScene scene, const StressView& view, double allowed, const Progress& progress)
-{
-    scene.description.lights.clear();
-    add_constant(scene, Color(1));
-    const StressPicture picture = StressStage(scene, {}, view, progress).render(view, progress);
-    StressFinding finding = compare_exactly(picture.film, 1, allowed);
-    finding.count(picture.statistics);
-    finding.remark = fmt::format("{:.3g} segments a path, longest {}", static_cast<double>(finding.segments) / static_cast<double>(std::max<uint64_t>(1, finding.paths)), finding.longest);
     return finding;
 }
 
@@ -68,14 +56,25 @@ StressScene bed_of(const Kind& kind, const Progress& progress)
 
 } // namespace
 
+StressFinding furnace(StressScene scene, const StressView& view, const Progress& progress, double allowed)
+{
+    scene.description.lights.clear();
+    add_constant(scene, Color(1));
+    const StressPicture picture = StressStage(scene, {}, view, progress).render(view, progress);
+    StressFinding finding = compare_exactly(picture.film, 1, allowed);
+    finding.count(picture.statistics);
+    finding.remark += fmt::format("{:.3g} vertices a path, longest {}", finding.length(), finding.longest);
+    return finding;
+}
+
 void add_furnace_cases(StressRun& run)
 {
     run.begin("white furnace", "every pixel of 2,400 lossless grains in a surrounding of 1 with 1", "1e-5: the rounding of some 100 products of floats");
-    for (const IntegratorKind integrator : {IntegratorKind::ept, IntegratorKind::ppt, IntegratorKind::automatic, IntegratorKind::vpt, IntegratorKind::stf}) {
+    for (const IntegratorKind integrator : all_kinds) {
         for (const Kind& kind : kinds()) {
             const bool quick = kind.mesh.empty() && integrator == IntegratorKind::ept;
             run.add(fmt::format("{}, {}", kind.name, name_of(integrator)), quick ? StressExtent::quick : StressExtent::full, [&] {
-                return furnace(bed_of(kind, run.progress()), {.kind = integrator, .accuracy = Accuracy::draft, .spp = 8}, float_paths, run.progress());
+                return furnace(bed_of(kind, run.progress()), {.kind = integrator, .accuracy = Accuracy::draft, .spp = 8}, run.progress());
             });
         }
     }
@@ -84,18 +83,18 @@ void add_furnace_cases(StressRun& run)
     for (const double ior : {0.1, 1.0001, 4.0, 10.0}) {
         for (const double roughness : {0.0, 0.05, 1.0}) {
             run.add(fmt::format("index {}, roughness {}, ept", ior, roughness), ior == 4 ? StressExtent::quick : StressExtent::full, [&] {
-                return furnace(bed_of({"", glass_material(ior, roughness), ""}, run.progress()), {.spp = 8}, float_paths, run.progress());
+                return furnace(bed_of({"", glass_material(ior, roughness), ""}, run.progress()), {.spp = 8}, run.progress());
             });
         }
         for (const char* mesh : {"", "cube.obj"}) {
             run.add(fmt::format("index {}, {}, ppt", ior, *mesh ? "cubes" : "spheres"), StressExtent::full, [&] {
-                return furnace(bed_of({"", glass_material(ior), mesh}, run.progress()), {.kind = IntegratorKind::ppt, .accuracy = Accuracy::draft, .spp = 8}, float_paths, run.progress());
+                return furnace(bed_of({"", glass_material(ior), mesh}, run.progress()), {.kind = IntegratorKind::ppt, .accuracy = Accuracy::draft, .spp = 8}, run.progress());
             });
         }
     }
 
     run.begin("white furnace, sampled", "the same with a surrounding that is sampled, in the mean", "noise");
-    for (const IntegratorKind integrator : {IntegratorKind::ept, IntegratorKind::ppt, IntegratorKind::automatic, IntegratorKind::vpt, IntegratorKind::stf}) {
+    for (const IntegratorKind integrator : all_kinds) {
         for (const Kind& kind : kinds()) {
             const bool quick = integrator == IntegratorKind::ept && kind.name == "rough glass spheres";
             run.add(fmt::format("{}, {}", kind.name, name_of(integrator)), quick ? StressExtent::quick : StressExtent::full, [&] {

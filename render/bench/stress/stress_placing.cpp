@@ -1,6 +1,6 @@
 // Scenes that are scaled, moved and turned as a whole: light goes as before.
 
-#include "render/bench/stress/stress_run.h"
+#include "render/bench/stress/stress_furnace.h"
 #include "render/bench/stress/stress_scenes.h"
 
 #include <fmt/format.h>
@@ -8,8 +8,6 @@
 namespace scree {
 
 namespace {
-
-constexpr IntegratorKind all_kinds[] = {IntegratorKind::ept, IntegratorKind::ppt, IntegratorKind::automatic, IntegratorKind::vpt, IntegratorKind::stf};
 
 /// Samples of pictures that are compared in the mean: fewer where a medium stands for grains, which takes longer.
 uint32_t mean_spp(IntegratorKind kind) { return kind == IntegratorKind::ept || kind == IntegratorKind::ppt ? 1024 : 384; }
@@ -33,14 +31,7 @@ NamedScene scene_for(IntegratorKind kind, const Progress& progress)
     return {"2,400 grains", lit(bed_scene({glass_material(1.5, 0, Color(0x1p-8f, 0x1p-7f, 0x1p-5f)), lambert_material(Color(0.96875f, 0.875f, 0.5f))}, progress))};
 }
 
-NamedScene ball_of_medium()
-{
-    StressScene scene = empty_scene(24, 18, V3d(-3, -3.5, 2.5), V3d(0), 35);
-    scene.meshes["ball.obj"] = ball_mesh(1, 2);
-    add_medium(scene, "ball.obj", 16, Color(0.99f, 0.9f, 0.5f), 0.75);
-    add_day(scene);
-    return {"a ball of medium", scene};
-}
+NamedScene ball() { return {"a ball of medium", ball_of_medium(16, Weight(0.99, 0.9, 0.5), 0.75)}; }
 
 NamedScene filled_cube(const Progress& progress)
 {
@@ -117,7 +108,7 @@ void add_scale_cases(StressRun& run)
         });
     };
     for (const IntegratorKind kind : all_kinds) add(scene_for(kind, run.progress()), kind, extent_of(kind));
-    for (const IntegratorKind kind : {IntegratorKind::vpt, IntegratorKind::stf}) add(ball_of_medium(), kind, kind == IntegratorKind::vpt ? StressExtent::quick : StressExtent::full);
+    for (const IntegratorKind kind : {IntegratorKind::vpt, IntegratorKind::stf}) add(ball(), kind, kind == IntegratorKind::vpt ? StressExtent::quick : StressExtent::full);
     add(filled_cube(run.progress()), IntegratorKind::ept, StressExtent::full);
 }
 
@@ -125,9 +116,14 @@ void add_place_cases(StressRun& run)
 {
     run.begin("place, exact", "the scene moved by about 1e7, coordinates still exact, bit by bit", "nothing: double holds them, and the scene is centred before it becomes float");
     const V3d exact(1e7, -1e7, 2e7), inexact(1e7 + 1 / 3.0, -1e7 - 0.1, 2e7 + 0.7);
-    run.add("48 mixed grains, ept", StressExtent::quick, [&] {
-        return same_bits(mixed_scene(run.progress()), {moved(exact)}, {.spp = 8}, run.progress());
-    });
+    const auto add = [&](const NamedScene& named, IntegratorKind kind) {
+        run.add(fmt::format("{}, {}", named.name, name_of(kind)), extent_of(kind), [&] {
+            return same_bits(named.scene, {moved(exact)}, {.kind = kind, .accuracy = Accuracy::draft, .spp = 8}, run.progress());
+        });
+    };
+    for (const IntegratorKind kind : all_kinds) add(scene_for(kind, run.progress()), kind);
+    for (const IntegratorKind kind : {IntegratorKind::vpt, IntegratorKind::stf}) add(ball(), kind);
+    for (const IntegratorKind kind : {IntegratorKind::ept, IntegratorKind::ppt}) add(filled_cube(run.progress()), kind);
     run.begin("place", "the scene moved by 1e7 of its units against the scene, in the mean", "noise: coordinates near 1e7 keep 2^-29 of a unit in a dump and a scene");
     for (const IntegratorKind kind : all_kinds) {
         const NamedScene named = scene_for(kind, run.progress());
@@ -136,7 +132,7 @@ void add_place_cases(StressRun& run)
         });
     }
     run.add("a ball of medium, vpt", StressExtent::full, [&] {
-        return same_in_the_mean(ball_of_medium().scene, moved(inexact), {.kind = IntegratorKind::vpt, .spp = mean_spp(IntegratorKind::vpt)}, 0, run.progress());
+        return same_in_the_mean(ball().scene, moved(inexact), {.kind = IntegratorKind::vpt, .spp = mean_spp(IntegratorKind::vpt)}, 0, run.progress());
     });
     for (const IntegratorKind kind : {IntegratorKind::ept, IntegratorKind::ppt}) {
         run.add("a filled cube, " + name_of(kind), StressExtent::full, [&] {
@@ -158,7 +154,7 @@ void add_turn_cases(StressRun& run)
     }
     for (const IntegratorKind kind : {IntegratorKind::vpt, IntegratorKind::stf}) {
         run.add("a ball of medium, " + name_of(kind), StressExtent::full, [&] {
-            return same_in_the_mean(ball_of_medium().scene, turned(), {.kind = kind, .accuracy = Accuracy::draft, .spp = mean_spp(kind)}, 0, run.progress());
+            return same_in_the_mean(ball().scene, turned(), {.kind = kind, .accuracy = Accuracy::draft, .spp = mean_spp(kind)}, 0, run.progress());
         });
     }
 }

@@ -2,6 +2,7 @@
 
 #include "packing/tile_generator.h"
 #include "render/sampler.h"
+#include "render/scene/camera.h"
 
 #include <map>
 
@@ -47,6 +48,26 @@ StressScene scene_from_above(int pixels, double width, double height)
     scene.description.camera.width = width;
     scene.description.camera.up = V3d(0, 1, 0);
     return scene;
+}
+
+std::vector<double> pixel_means(const StressScene& scene, int parts, const std::function<double(const V3d&, const V3d&)>& radiance)
+{
+    const int w = scene.description.film.width, h = scene.description.film.height;
+    const Camera camera(scene.description.camera, w, h);
+    std::vector<double> means;
+    for (int y = 0; y < h; ++y) {
+        for (int x = 0; x < w; ++x) {
+            double sum = 0;
+            for (int j = 0; j < parts; ++j) {
+                for (int i = 0; i < parts; ++i) {
+                    const CameraRay ray = camera.ray(V2d(x + (i + 0.5) / parts, y + (j + 0.5) / parts), V2d(0));
+                    sum += radiance(ray.o, ray.d);
+                }
+            }
+            means.push_back(sum / (parts * parts));
+        }
+    }
+    return means;
 }
 
 void add_constant(StressScene& scene, const Color& radiance)
@@ -128,6 +149,19 @@ StressScene filled_scene(const Material& material, double radius, const Progress
     scene.fill_radius = radius;
     scene.meshes["cube.obj"] = cube_mesh(1);
     add_type(scene, "grain", material);
+    return scene;
+}
+
+StressScene ball_of_medium(double sigma_t, const Weight& albedo, double g)
+{
+    StressScene scene = empty_scene(24, 18, V3d(-3, -3.5, 2.5), V3d(0), 35);
+    TriangleMesh ball = ball_mesh(1, 2);
+    for (V3d& p : ball.positions) {
+        for (int a = 0; a < 3; ++a) p[a] = std::round(p[a] * 0x1p20) * 0x1p-20;
+    }
+    scene.meshes["ball.obj"] = ball;
+    add_medium(scene, "ball.obj", sigma_t, albedo, g);
+    add_day(scene);
     return scene;
 }
 

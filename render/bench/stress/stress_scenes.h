@@ -2,12 +2,17 @@
 
 #include "render/bench/stress/stress_scene.h"
 
+#include <functional>
+
 namespace scree {
 
 /// A camera at `origin` that sees a w x h picture, and no light.
 StressScene empty_scene(int width, int height, const V3d& origin, const V3d& target, double fov);
 /// The same looking straight down -z from `height` at a square of a width.
 StressScene scene_from_above(int pixels, double width, double height);
+
+/// Means over the pixels of what a scene's camera sees, of parts^2 rays each; radiance: along a ray, in the scene's unit.
+std::vector<double> pixel_means(const StressScene& scene, int parts, const std::function<double(const V3d& o, const V3d& d)>& radiance);
 
 void add_constant(StressScene& scene, const Color& radiance);
 /// A bright sky, a wide sun and a rectangle of light: what shows a turn, and makes no single bright samples.
@@ -21,6 +26,9 @@ StressScene mixed_scene(const Progress& progress);
 StressScene bed_scene(const std::vector<Material>& materials, const Progress& progress);
 /// A cube from -1 to 1 filled with grains of a mean radius.
 StressScene filled_scene(const Material& material, double radius, const Progress& progress);
+
+/// A ball of radius 1 of a medium under a day; its coordinates are multiples of 2^-20.
+StressScene ball_of_medium(double sigma_t, const Weight& albedo, double g);
 
 TriangleMesh cube_mesh(double half);
 /// 20 * 4^level triangles on a sphere.
