@@ -31,8 +31,8 @@ Machine this_machine(int threads)
 const std::string& build_identity()
 {
     static const std::string identity = [] {
-        const uint64_t empty = hash_bytes(nullptr, 0, 0), hash = hash_file("/proc/self/exe", 0);
-        return hash == empty ? std::string(SCREE_VERSION) : fmt::format("{:016x}", hash);
+        const uint64_t hash = hash_file("/proc/self/exe", 0);
+        return hash == 0 ? std::string(SCREE_VERSION) : fmt::format("{:016x}", hash);
     }();
     return identity;
 }

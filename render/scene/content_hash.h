@@ -6,8 +6,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <string>
 #include <vector>
 
 namespace scree {
@@ -36,12 +34,16 @@ inline uint64_t hash_mesh(const TriangleMesh& mesh, uint64_t seed)
     return hash_vector(mesh.triangles, hash_vector(mesh.positions, seed));
 }
 
-/// Of a file's bytes; of one that cannot be read as of an empty one.
+/// Of a file's bytes; the seed where it cannot be read.
 inline uint64_t hash_file(const std::filesystem::path& file, uint64_t seed)
 {
     std::ifstream in(file, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-    return hash_bytes(bytes.data(), bytes.size(), seed);
+    std::vector<char> block(1 << 20);
+    while (in) {
+        in.read(block.data(), static_cast<std::streamsize>(block.size()));
+        seed = hash_bytes(block.data(), static_cast<size_t>(in.gcount()), seed);
+    }
+    return seed;
 }
 
 } // namespace scree

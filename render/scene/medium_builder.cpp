@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 
 namespace scree {
 
@@ -20,17 +19,6 @@ VdbMediumOptions vdb_options(const MediumDescription& medium)
 
 /// A name for messages: the file's.
 std::string name_of(const MediumDescription& medium) { return (medium.mesh.empty() ? medium.vdb : medium.mesh).filename().string(); }
-
-uint64_t hash_file(const std::filesystem::path& file, uint64_t seed)
-{
-    std::ifstream in(file, std::ios::binary);
-    std::vector<char> block(1 << 20);
-    while (in) {
-        in.read(block.data(), static_cast<std::streamsize>(block.size()));
-        seed = hash_bytes(block.data(), static_cast<size_t>(in.gcount()), seed);
-    }
-    return seed;
-}
 
 /// Places are doubles of about the size of the region: a way much below 2^-53 of that is none, and light leaves too soon.
 void warn_if_too_dense(const MediumDescription& medium, const Imath::Box3d& bounds, double unit, std::vector<std::string>& warnings)
