@@ -148,7 +148,7 @@ void add_medium_cases(StressRun& run)
         uint32_t steps, shells; // samples a pixel of 64; none where scattering by scattering takes too long
         double must_see;        // of what is absorbed, where that is little: 10 % of it at 0.9999 is 0.3 % of the light
     };
-    for (const Thick& t : {Thick{0.5, 4096, 4096, 0.03}, {0.9, 4096, 4096, 0.03}, {0.99, 4096, 8192, 0.05}, {0.9999, 2048, 4096, 0.12}, {0.999999, 0, 16384, 0.15}}) {
+    for (const Thick& t : {Thick{0.5, 4096, 4096, 0.03}, {0.9, 4096, 4096, 0.03}, {0.99, 4096, 8192, 0.03}, {0.9999, 2048, 4096, 0.12}, {0.999999, 0, 16384, 0.15}}) {
         for (const IntegratorKind kind : medium_kinds) {
             const uint32_t spp = kind == IntegratorKind::vpt ? t.steps : t.shells;
             if (spp == 0) continue;

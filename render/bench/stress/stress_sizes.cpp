@@ -114,6 +114,7 @@ void add_size_cases(StressRun& run)
             return dust(V3d(0), {.kind = kind, .accuracy = Accuracy::standard, .spp = 512}, run.progress());
         });
     }
+    run.add("dust on a ball at 1e7, ept", StressExtent::full, [&] { return dust(V3d(1e7), {.spp = 512}, run.progress()); });
 }
 
 } // namespace scree
