@@ -18,7 +18,7 @@ void MediumPyramid::Cell::add(const Cell& other, Real weight)
     const bool first = sigma_t == 0 && sigma_high == 0 && back_high == 0;
     sigma_t += weight * other.sigma_t;
     for (size_t c = 0; c < 3; ++c) lost[c] += weight * other.lost[c];
-    turned += weight * other.turned;
+    forward += weight * other.forward;
     sigma_square += weight * other.sigma_square;
     loss_square += weight * other.loss_square;
     back_square += weight * other.back_square;
@@ -51,7 +51,7 @@ MediumPyramid::Cell MediumPyramid::cell_at(const GridMedium& medium, const V3d& 
     cell.sigma_t = medium.sigma_t(place).x;
     const Weight albedo = medium.albedo(place);
     for (unsigned c = 0; c < 3; ++c) cell.lost[c] = static_cast<Real>(cell.sigma_t * (1 - albedo[c]));
-    cell.turned = static_cast<Real>(cell.brightest() * (1 - medium.g(place)));
+    cell.forward = static_cast<Real>(cell.brightest() * medium.g(place));
     cell.forget_range();
     cell.forget_squares();
     return cell;
@@ -171,8 +171,8 @@ bool MediumPyramid::is_same(const V3d& centre, double radius, MediumMean& mean) 
     if (!(sigma > 0 && brightest > 0)) return false;
     mean.sigma_t = sigma;
     for (unsigned c = 0; c < 3; ++c) mean.albedo[c] = std::min<double>(extremes_.albedo_high, 1 - ball.lost[c] / sigma);
-    const double loss = ball.least_lost() / sigma, back = ball.turned / brightest;
-    mean.g = 1 - back;
+    mean.g = ball.forward / brightest;
+    const double loss = ball.least_lost() / sigma, back = 1 - mean.g;
     constexpr double rounded = 1e-6; // what sums in single precision are off by; all have no unit
     const auto close = [&](double low, double high, double square, double value) {
         const double most = value * tolerance_ + rounded;

@@ -38,14 +38,14 @@ public:
 private:
     /// Means over a cube, the range of those of the eight cubes within, and means of squares over all that does not average out.
     struct Cell {
-        Real sigma_t = 0, lost[3] = {0, 0, 0}, turned = 0; ///< extinction; times 1 - albedo; what the brightest channel scatters, times 1 - g
+        Real sigma_t = 0, lost[3] = {0, 0, 0}, forward = 0; ///< extinction; times 1 - albedo; what the brightest channel scatters, times g
         Real sigma_low = 0, sigma_high = 0, loss_low = 0, loss_high = 0, back_low = 0, back_high = 0; ///< of sigma_t, 1 - albedo, 1 - g
         Real sigma_square = 0, loss_square = 0, back_square = 0; ///< of sigma_t; of the others, times sigma_t and times what is scattered
 
         Real least_lost() const { return std::min({lost[0], lost[1], lost[2]}); }
         Real brightest() const { return sigma_t - least_lost(); }
         Real loss() const { return sigma_t > 0 ? least_lost() / sigma_t : 0; }
-        Real back() const { return brightest() > 0 ? turned / brightest() : 1; }
+        Real back() const { return brightest() > 0 ? 1 - forward / brightest() : 1; }
         /// Adds what is in another; the ranges become those of both.
         void add(const Cell& other, Real weight);
         /// As if it were the same all over.

@@ -32,7 +32,8 @@ std::vector<double> g_axis(double low, double high)
     constexpr double most = 0.999;
     low = std::clamp(low, -most, most);
     high = std::clamp(high, -most, most);
-    if (low == high) return {low};
+    constexpr double rounded = 1e-6; // means of single precision
+    if (high - low <= 4 * rounded) return {std::round(0.5 * (low + high) / rounded) * rounded};
     const int first = static_cast<int>(std::floor(-std::log(1 - low) / std::log(g_step))), last = static_cast<int>(std::ceil(-std::log(1 - high) / std::log(g_step)));
     std::vector<double> axis;
     for (int k = first; k <= last; ++k) axis.push_back(std::max(-most, 1 - std::pow(g_step, -k)));
