@@ -14,7 +14,7 @@ void check_options(const GridMediumOptions& options, const std::string& place)
     for (int c = 0; c < 3; ++c) {
         if (!(options.scale[c] >= 0) || !std::isfinite(options.scale[c]))
             throw InputError(place, fmt::format("a scale of {}", options.scale[c]), "a finite scale of 0 or more");
-        if (!(options.albedo[c] >= 0 && options.albedo[c] <= 1)) throw InputError(place, fmt::format("an albedo of {}", options.albedo[c]), "an albedo in 0..1");
+        if (!(options.albedo[c] >= 0 && options.albedo[c] <= 1)) throw InputError(place, fmt::format("an albedo of {:g}", options.albedo[c]), "an albedo in 0..1");
     }
     if (!(std::abs(options.g) < 1)) throw InputError(place, fmt::format("a g of {}", options.g), "an asymmetry g between -1 and 1");
 }

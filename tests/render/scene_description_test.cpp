@@ -240,7 +240,7 @@ TEST(SceneDescription, ReadsMedia)
     ASSERT_EQ(scene.media.size(), 2u);
     EXPECT_EQ(scene.media[0].mesh.filename(), "slab.off");
     EXPECT_EQ(scene.media[0].sigma_t, Color(1, 2, 3));
-    EXPECT_EQ(scene.media[0].albedo, Color(0.9f));
+    EXPECT_EQ(scene.media[0].albedo, Weight(0.9));
     EXPECT_EQ(scene.media[0].g, -0.5);
     EXPECT_EQ(scene.media[1].vdb.filename(), "cloud.vdb");
     EXPECT_EQ(scene.media[1].density, "rho");
