@@ -16,38 +16,84 @@ std::array<V3d, 3> corners_of(const MediumRegion& region, uint32_t triangle)
     return {V3d(region.positions[t[0]]), V3d(region.positions[t[1]]), V3d(region.positions[t[2]])};
 }
 
+/// A ray along which triangles are seen in a plane, sheared so that it is a point there (Woop, Benthin and Wald 2013, in double): of two triangles
+/// that share an edge the same number says on which side of it the ray passes, so that no ray goes between them.
+struct ShearedRay {
+    V3d o;
+    int x, y, z; // axes of the plane, and the one that the ray goes along most
+    double shear_x, shear_y, along;
+
+    ShearedRay(const V3d& o_, const V3d& d) : o(o_)
+    {
+        z = std::abs(d.x) > std::abs(d.y) ? 0 : 1;
+        if (std::abs(d.z) > std::abs(d[z])) z = 2;
+        x = (z + 1) % 3;
+        y = (z + 2) % 3;
+        if (d[z] < 0) std::swap(x, y);
+        shear_x = d[x] / d[z];
+        shear_y = d[y] / d[z];
+        along = d[z];
+    }
+
+    /// False where the ray passes beside the triangle or within its plane.
+    bool meets(const std::array<V3d, 3>& corners, double& t, bool& enters) const
+    {
+        const V3d a = corners[0] - o, b = corners[1] - o, c = corners[2] - o;
+        const double ax = a[x] - shear_x * a[z], ay = a[y] - shear_y * a[z], bx = b[x] - shear_x * b[z], by = b[y] - shear_y * b[z];
+        const double cx = c[x] - shear_x * c[z], cy = c[y] - shear_y * c[z];
+        const double u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
+        if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return false;
+        const double sum = u + v + w;
+        if (sum == 0) return false;
+        t = (u * a[z] + v * b[z] + w * c[z]) / (sum * along);
+        enters = sum > 0;
+        return true;
+    }
+};
+
 /// What a ray carries through Embree, and the nearest crossing so far.
 struct CrossingQuery {
     RTCIntersectContext context; // first: Embree hands it back
-    const World* world;
-    V3d o, d;
+    const World& world;
+    ShearedRay ray;
     double tmin, best, advanced; // Embree's ray starts at o + advanced d
     double slack;                // what rounding to float may move a crossing by
     const Crossing* last;
-    Crossing crossing;
+    Crossing crossing{};
     bool found = false;
 };
 
-void crossing_filter(const RTCFilterFunctionNArguments* args)
+void find_crossing(const RTCIntersectFunctionNArguments* args)
 {
     auto& query = *reinterpret_cast<CrossingQuery*>(args->context);
-    auto* ray = reinterpret_cast<RTCRay*>(args->ray);
-    const auto* hit = reinterpret_cast<const RTCHit*>(args->hit);
-    args->valid[0] = 0;
-    const auto c = corners_of(query.world->regions[hit->geomID], hit->primID);
-    const double t = meet_plane(c, query.o, query.d).t;
+    Crossing crossing{0, args->geomID, args->primID, false};
+    if (!query.ray.meets(corners_of(query.world.regions[crossing.region], crossing.triangle), crossing.t, crossing.enters)) return;
     // Where surfaces coincide they are gone through in order of their numbers.
-    const std::pair which{hit->geomID, hit->primID};
-    if (query.last && which == std::pair{query.last->region, query.last->triangle}) return;
-    const bool due = t > query.tmin || (query.last && t == query.tmin && which > std::pair{query.last->region, query.last->triangle});
-    const bool first = t < query.best || (query.found && t == query.best && which < std::pair{query.crossing.region, query.crossing.triangle});
+    const auto number = [](const Crossing& of) { return std::pair{of.region, of.triangle}; };
+    if (query.last && number(crossing) == number(*query.last)) return;
+    const bool due = crossing.t > query.tmin || (query.last && crossing.t == query.tmin && number(crossing) > number(*query.last));
+    const bool first = crossing.t < query.best || (query.found && crossing.t == query.best && number(crossing) < number(query.crossing));
     if (!due || !first) return;
-    query.best = t;
+    query.best = crossing.t;
     query.found = true;
-    query.crossing = {t, hit->geomID, hit->primID, (c[1] - c[0]).cross(c[2] - c[0]).dot(query.d) < 0};
-    ray->tfar = static_cast<float>(std::max(0.0, t - query.advanced) + query.slack);
-    args->valid[0] = -1;
+    query.crossing = crossing;
+    reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar = static_cast<float>(std::max(0.0, crossing.t - query.advanced) + query.slack);
 }
+
+/// The surface of a region as Embree is told of it: no ray that meets a triangle passes by its box, whatever rounding to float does to either.
+struct WidenedSurface {
+    const MediumRegion* region;
+    double slack;
+
+    static void bound(const RTCBoundsFunctionArguments* args)
+    {
+        const auto& surface = *static_cast<const WidenedSurface*>(args->geometryUserPtr);
+        Imath::Box3d box;
+        for (const V3d& corner : corners_of(*surface.region, args->primID)) box.extendBy(corner);
+        const V3f low(box.min - V3d(surface.slack)), high(box.max + V3d(surface.slack));
+        *args->bounds_o = {low.x, low.y, low.z, 0, high.x, high.y, high.z, 0};
+    }
+};
 
 } // namespace
 
@@ -57,6 +103,7 @@ struct RegionTracer::Impl {
     RTCScene scene = nullptr;
     V3d middle{0};
     double radius = 0; // around the middle, of all regions
+    double slack = 0;  // what rounding of a ray to float may move it by
 
     Impl(std::shared_ptr<const EmbreeDevice> device_, const World& world_);
     ~Impl()
@@ -67,28 +114,29 @@ struct RegionTracer::Impl {
 
 RegionTracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const World& world_) : device(std::move(device_)), world(world_)
 {
+    Imath::Box3d box;
+    for (const MediumRegion& region : world.regions) box.extendBy(region.bounds());
+    middle = box.center();
+    radius = 0.5 * box.size().length();
+    slack = 0x1p-20 * (middle.length() + radius);
     scene = rtcNewScene(device->get());
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    std::vector<WidenedSurface> surfaces;
+    surfaces.reserve(world.regions.size()); // Embree keeps where they are
     for (uint32_t i = 0; i < world.regions.size(); ++i) {
         const MediumRegion& region = world.regions[i];
-        RTCGeometry geometry = rtcNewGeometry(device->get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* vertices = static_cast<V3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(V3f), region.positions.size()));
-        auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), region.triangles.size()));
-        device->check("building the surface of a medium");
-        std::copy(region.positions.begin(), region.positions.end(), vertices);
-        for (size_t t = 0; t < region.triangles.size(); ++t) std::copy(region.triangles[t].begin(), region.triangles[t].end(), indices + 3 * t);
-        rtcSetGeometryIntersectFilterFunction(geometry, crossing_filter);
+        RTCGeometry geometry = rtcNewGeometry(device->get(), RTC_GEOMETRY_TYPE_USER);
+        surfaces.push_back({&region, slack});
+        rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(region.triangles.size()));
+        rtcSetGeometryUserData(geometry, &surfaces.back());
+        rtcSetGeometryBoundsFunction(geometry, WidenedSurface::bound, nullptr);
+        rtcSetGeometryIntersectFunction(geometry, find_crossing);
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(scene, geometry, i);
         rtcReleaseGeometry(geometry);
     }
     rtcCommitScene(scene);
     device->check("building the surfaces of media");
-    RTCBounds bounds;
-    rtcGetSceneBounds(scene, &bounds);
-    const V3d lo(bounds.lower_x, bounds.lower_y, bounds.lower_z), hi(bounds.upper_x, bounds.upper_y, bounds.upper_z);
-    middle = 0.5 * (lo + hi);
-    radius = 0.5 * (hi - lo).length();
 }
 
 RegionTracer::RegionTracer(std::shared_ptr<const EmbreeDevice> device, const World& world) : impl_(std::make_unique<Impl>(std::move(device), world))
@@ -108,22 +156,14 @@ V3d RegionTracer::normal(const Crossing& crossing) const
 
 bool RegionTracer::next(const V3d& o, const V3d& d, double tmin, double tmax, const Crossing* last, Crossing& crossing) const
 {
-    // What rounding to float may do to a ray: it starts that much early, and not farther away than a few times the regions' size.
     const V3d to = impl_->middle - o;
     const double reach = impl_->radius * (1 + 0x1p-10), along = to.dot(d);
     if (along + reach < tmin || along - reach > tmax || (to - along * d).length2() > reach * reach) return false;
-    CrossingQuery query;
+    // What rounding to float may do to a ray: it starts that much early, and not farther away than the regions' size.
+    const double slack = 4 * impl_->slack;
+    CrossingQuery query{{}, impl_->world, {o, d}, tmin, tmax, std::max(tmin, along - reach) - slack, slack, last};
     rtcInitIntersectContext(&query.context);
-    query.world = &impl_->world;
-    query.o = o;
-    query.d = d;
-    query.tmin = tmin;
-    query.best = tmax;
-    query.last = last;
-    query.slack = 0x1p-20 * (impl_->middle.length() + reach);
-    // A ray nearly along a face needs a long way back to be on its near side for certain, whatever rounding does to its start.
-    query.advanced = std::max(tmin, along - reach) - 0x1p10 * query.slack;
-    RTCRayHit ray = make_ray(o + query.advanced * d, d, tmax - query.advanced + query.slack);
+    RTCRayHit ray = make_ray(o + query.advanced * d, d, tmax - query.advanced + slack);
     rtcIntersect1(impl_->scene, &query.context, &ray);
     if (query.found) crossing = query.crossing;
     return query.found;

@@ -20,7 +20,7 @@ struct Crossing {
 /// A set of regions, one bit each.
 using RegionSet = uint64_t;
 
-/// Finds where rays go through the surfaces of a world's media. Embree proposes in float, double decides.
+/// Finds where rays go through the surfaces of a world's media. Embree proposes triangles by boxes, double decides: no ray passes between two of them.
 ///
 /// A crossing says which side the ray goes to, so that a set of regions is mended by the next crossing should rounding ever have
 /// made it wrong. Rays are (o, d): unit d, render coordinates.

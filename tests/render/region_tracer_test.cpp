@@ -1,0 +1,89 @@
+// Rays go through closed surfaces of media as often out as in, wherever they start and however near to edges and corners they pass.
+
+#include "render/scene/region_tracer.h"
+#include "tests/builders/scenes.h"
+#include "tests/builders/shapes.h"
+#include "tests/render/brute_force.h"
+
+#include <gtest/gtest.h>
+
+namespace scree {
+namespace {
+
+/// A ball of 5,120 triangles that lies off the origin.
+TestScene& ball_scene()
+{
+    static TestScene scene;
+    static const bool built = [] {
+        TriangleMesh ball = icosphere(4);
+        for (V3d& p : ball.positions) p = p * 0.75 + V3d(0.4, -0.2, 0.1);
+        scene.add_medium(ball, V3d(1), Color(1), 0);
+        scene.build();
+        return true;
+    }();
+    return built ? scene : scene;
+}
+
+std::array<V3d, 3> corners_of(const MediumRegion& region, size_t triangle)
+{
+    const auto& t = region.triangles[triangle];
+    return {V3d(region.positions[t[0]]), V3d(region.positions[t[1]]), V3d(region.positions[t[2]])};
+}
+
+/// A place on a triangle: at a corner, on an edge, as near to one as `depth`, or anywhere.
+V3d place_on(const std::array<V3d, 3>& c, Sampler& sampler, int i, double depth)
+{
+    double u = sampler.next(), v = sampler.next();
+    if (u + v > 1) u = 1 - u, v = 1 - v;
+    if (i % 4 == 0) return c[0];
+    if (i % 4 == 1) return c[0] + u * (c[1] - c[0]);
+    if (i % 4 == 2) u = depth * u;
+    return c[0] + u * (c[1] - c[0]) + v * (c[2] - c[0]);
+}
+
+// A medium of a mean free path of 1e-12 scatters light that near to its faces, and none of it may be lost.
+TEST(RegionTracer, ARayFromWithinAlwaysLeaves)
+{
+    const RegionTracer& tracer = *ball_scene().tracer().regions();
+    const MediumRegion& ball = ball_scene().world().regions[0];
+    V3d middle(0);
+    for (const V3f& p : ball.positions) middle += V3d(p) / static_cast<double>(ball.positions.size());
+    Sampler sampler(11, 0, 0, 0);
+    for (int i = 0; i < 400000; ++i) {
+        const double depth = std::pow(10.0, -12 * sampler.next());
+        const V3d on = place_on(corners_of(ball, static_cast<size_t>(sampler.next() * static_cast<double>(ball.triangles.size()))), sampler, i, depth);
+        const V3d o = on + depth * (middle - on), d = random_direction(sampler);
+        Crossing first, second;
+        ASSERT_TRUE(tracer.next(o, d, 0, infinity, nullptr, first)) << "from " << o << " along " << d << ", " << depth << " deep";
+        ASSERT_FALSE(first.enters) << "from " << o << " along " << d << ", " << depth << " deep";
+        ASSERT_FALSE(tracer.next(o, d, first.t, infinity, &first, second)) << "from " << o << " along " << d << ", " << depth << " deep";
+    }
+}
+
+// What rounding leaves of a corner is on one side of the ray or on the other, but on the same for all triangles that share it.
+TEST(RegionTracer, ARayFromOutsideEntersAndLeavesInTurn)
+{
+    const RegionTracer& tracer = *ball_scene().tracer().regions();
+    const MediumRegion& ball = ball_scene().world().regions[0];
+    Sampler sampler(12, 0, 0, 0);
+    int met = 0;
+    for (int i = 0; i < 400000; ++i) {
+        const V3d d = random_direction(sampler);
+        const auto c = corners_of(ball, static_cast<size_t>(sampler.next() * static_cast<double>(ball.triangles.size())));
+        const V3d beside = std::pow(10.0, -3 - 6 * sampler.next()) * random_direction(sampler); // what only touches a corner may do either
+        const V3d o = place_on(c, sampler, i, 1e-7) + beside - 3 * std::pow(10.0, 2 * sampler.next()) * d;
+        RegionSet inside = 0;
+        Crossing crossing;
+        const Crossing* last = nullptr;
+        for (double t = 0; tracer.next(o, d, t, infinity, last, crossing); t = crossing.t, last = &crossing) {
+            ASSERT_NE(crossing.enters, inside != 0) << "from " << o << " along " << d;
+            inside = RegionTracer::after(inside, crossing);
+            ++met;
+        }
+        ASSERT_EQ(inside, 0u) << "from " << o << " along " << d;
+    }
+    EXPECT_GT(met, 600000); // most of these rays go through
+}
+
+} // namespace
+} // namespace scree
