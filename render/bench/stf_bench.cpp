@@ -72,7 +72,8 @@ public:
         plain = std::make_unique<Tracer>(device, world);
         world.clearance = known;
         for (uint32_t p = 0; p < columns_ * rows_; ++p) {
-            if (Crossing crossing; tracer->regions()->next(eye(p, 0.5, 0.5), forwards, 0, 4, nullptr, crossing)) pixels.push_back(p);
+            RegionSet outside = 0;
+            if (Crossing crossing; tracer->regions()->next(eye(p, 0.5, 0.5), forwards, 0, 4, nullptr, outside, crossing)) pixels.push_back(p);
         }
     }
 

@@ -90,11 +90,8 @@ bool Path::step_through_media(Hit& met)
     // Outside of media what is met first mostly ends the ray before it comes to one.
     const bool outside = regions_ == 0;
     double next = outside ? distance() : infinite;
-    const bool crosses = media_->next(o_, d_, passed_, next, crossed_ ? &crossing_ : nullptr, crossing);
-    if (crosses || next == infinite) {
-        if (!crosses && regions_ != 0) ++result_.leaks; // lost through the surface of a medium
-        regions_ = RegionTracer::before(regions_, crosses ? &crossing : nullptr);
-    }
+    const bool crosses = media_->next(o_, d_, passed_, next, crossed_ ? &crossing_ : nullptr, regions_, crossing);
+    if (!outside && regions_ == 0) ++result_.leaks; // lost through the surface of a medium
     if (!outside || regions_ != 0) next = distance();
     if (regions_ != 0) {
         if (const MediumEvent event = medium_event(passed_, std::min(crossing.t, next)); event.scattered) return handle_medium(event, met);
@@ -205,8 +202,7 @@ Color Path::passing_media(V3d o, const V3d& d, double distance, Place from, uint
     bool crossed = false;
     double t = 0, looked = 0; // along the ray: how far media, and what stands in the way, have been taken into account
     for (;;) {
-        const bool crosses = media_->next(o, d, t, distance, crossed ? &last : nullptr, crossing);
-        if (crosses || distance == infinite) regions = RegionTracer::before(regions, crosses ? &crossing : nullptr);
+        const bool crosses = media_->next(o, d, t, distance, crossed ? &last : nullptr, regions, crossing);
         const double end = crosses ? crossing.t : distance;
         if (regions != 0) {
             passed *= media_transmittance(regions, o, d, t, end);

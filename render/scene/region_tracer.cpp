@@ -4,6 +4,7 @@
 #include "render/scene/embree_device.h"
 #include "render/scene/embree_ray.h"
 
+#include <cmath>
 #include <limits>
 
 namespace scree {
@@ -61,23 +62,41 @@ struct CrossingQuery {
     const Crossing* last;
     Crossing crossing{};
     bool found = false;
+    bool doubtful = false; // a triangle that Embree met is not met: it may be another one that shares an edge with it
+
+    /// Whether the ray meets a triangle nearer than all so far; Embree's ray ends there then.
+    bool offer(uint32_t region, uint32_t triangle, RTCRay& embree)
+    {
+        Crossing met{0, region, triangle, false};
+        if (!ray.meets(corners_of(world.regions[region], triangle), met.t, met.enters)) {
+            doubtful = true;
+            return false;
+        }
+        // Where surfaces coincide they are gone through in order of their numbers.
+        const auto number = [](const Crossing& of) { return std::pair{of.region, of.triangle}; };
+        if (last && number(met) == number(*last)) return false;
+        const bool due = met.t > tmin || (last && met.t == tmin && number(met) > number(*last));
+        const bool first = met.t < best || (found && met.t == best && number(met) < number(crossing));
+        if (!due || !first) return false;
+        best = met.t;
+        found = true;
+        crossing = met;
+        embree.tfar = static_cast<float>(std::max(0.0, met.t - advanced) + slack);
+        return true;
+    }
 };
 
-void find_crossing(const RTCIntersectFunctionNArguments* args)
+void filter_triangle(const RTCFilterFunctionNArguments* args)
+{
+    const auto* hit = reinterpret_cast<const RTCHit*>(args->hit);
+    auto& query = *reinterpret_cast<CrossingQuery*>(args->context);
+    args->valid[0] = query.offer(hit->geomID, hit->primID, *reinterpret_cast<RTCRay*>(args->ray)) ? -1 : 0;
+}
+
+void meet_box(const RTCIntersectFunctionNArguments* args)
 {
     auto& query = *reinterpret_cast<CrossingQuery*>(args->context);
-    Crossing crossing{0, args->geomID, args->primID, false};
-    if (!query.ray.meets(corners_of(query.world.regions[crossing.region], crossing.triangle), crossing.t, crossing.enters)) return;
-    // Where surfaces coincide they are gone through in order of their numbers.
-    const auto number = [](const Crossing& of) { return std::pair{of.region, of.triangle}; };
-    if (query.last && number(crossing) == number(*query.last)) return;
-    const bool due = crossing.t > query.tmin || (query.last && crossing.t == query.tmin && number(crossing) > number(*query.last));
-    const bool first = crossing.t < query.best || (query.found && crossing.t == query.best && number(crossing) < number(query.crossing));
-    if (!due || !first) return;
-    query.best = crossing.t;
-    query.found = true;
-    query.crossing = crossing;
-    reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar = static_cast<float>(std::max(0.0, crossing.t - query.advanced) + query.slack);
+    query.offer(args->geomID, args->primID, reinterpret_cast<RTCRayHit*>(args->rayhit)->ray);
 }
 
 /// The surface of a region as Embree is told of it: no ray that meets a triangle passes by its box, whatever rounding to float does to either.
@@ -100,7 +119,8 @@ struct WidenedSurface {
 struct RegionTracer::Impl {
     std::shared_ptr<const EmbreeDevice> device;
     const World& world;
-    RTCScene scene = nullptr;
+    RTCScene triangles = nullptr; // quick, and tight for rays as they are in float
+    RTCScene boxes = nullptr;     // around triangles: whatever a ray meets in double is in one that it meets in float
     V3d middle{0};
     double radius = 0; // around the middle, of all regions
     double slack = 0;  // what rounding of a ray to float may move it by
@@ -108,7 +128,17 @@ struct RegionTracer::Impl {
     Impl(std::shared_ptr<const EmbreeDevice> device_, const World& world_);
     ~Impl()
     {
-        if (scene) rtcReleaseScene(scene);
+        if (triangles) rtcReleaseScene(triangles);
+        if (boxes) rtcReleaseScene(boxes);
+    }
+    void find(CrossingQuery& query, RTCScene scene, const V3d& o, const V3d& d) const;
+
+private:
+    void add(RTCScene scene, RTCGeometry geometry, uint32_t number) const
+    {
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(scene, geometry, number);
+        rtcReleaseGeometry(geometry);
     }
 };
 
@@ -119,24 +149,42 @@ RegionTracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const Worl
     middle = box.center();
     radius = 0.5 * box.size().length();
     slack = 0x1p-20 * (middle.length() + radius);
-    scene = rtcNewScene(device->get());
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    for (RTCScene* scene : {&triangles, &boxes}) {
+        *scene = rtcNewScene(device->get());
+        rtcSetSceneFlags(*scene, RTC_SCENE_FLAG_ROBUST);
+    }
+    rtcSetSceneBuildQuality(boxes, RTC_BUILD_QUALITY_LOW); // hardly a ray asks it
     std::vector<WidenedSurface> surfaces;
     surfaces.reserve(world.regions.size()); // Embree keeps where they are
     for (uint32_t i = 0; i < world.regions.size(); ++i) {
         const MediumRegion& region = world.regions[i];
-        RTCGeometry geometry = rtcNewGeometry(device->get(), RTC_GEOMETRY_TYPE_USER);
+        RTCGeometry quick = rtcNewGeometry(device->get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* vertices = static_cast<V3f*>(rtcSetNewGeometryBuffer(quick, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(V3f), region.positions.size()));
+        auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(quick, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), region.triangles.size()));
+        device->check("building the surface of a medium");
+        std::copy(region.positions.begin(), region.positions.end(), vertices);
+        for (size_t t = 0; t < region.triangles.size(); ++t) std::copy(region.triangles[t].begin(), region.triangles[t].end(), indices + 3 * t);
+        rtcSetGeometryIntersectFilterFunction(quick, filter_triangle);
+        add(triangles, quick, i);
+
+        RTCGeometry sure = rtcNewGeometry(device->get(), RTC_GEOMETRY_TYPE_USER);
         surfaces.push_back({&region, slack});
-        rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(region.triangles.size()));
-        rtcSetGeometryUserData(geometry, &surfaces.back());
-        rtcSetGeometryBoundsFunction(geometry, WidenedSurface::bound, nullptr);
-        rtcSetGeometryIntersectFunction(geometry, find_crossing);
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(scene, geometry, i);
-        rtcReleaseGeometry(geometry);
+        rtcSetGeometryUserPrimitiveCount(sure, static_cast<unsigned>(region.triangles.size()));
+        rtcSetGeometryUserData(sure, &surfaces.back());
+        rtcSetGeometryBoundsFunction(sure, WidenedSurface::bound, nullptr);
+        rtcSetGeometryIntersectFunction(sure, meet_box);
+        add(boxes, sure, i);
     }
-    rtcCommitScene(scene);
+    rtcCommitScene(triangles);
+    rtcCommitScene(boxes);
     device->check("building the surfaces of media");
+}
+
+/// Embree's ray may start up to slack early and end as much late, which is what rounding to float may move it by.
+void RegionTracer::Impl::find(CrossingQuery& query, RTCScene scene, const V3d& o, const V3d& d) const
+{
+    RTCRayHit ray = make_ray(o + query.advanced * d, d, query.best - query.advanced + query.slack);
+    rtcIntersect1(scene, &query.context, &ray);
 }
 
 RegionTracer::RegionTracer(std::shared_ptr<const EmbreeDevice> device, const World& world) : impl_(std::make_unique<Impl>(std::move(device), world))
@@ -154,19 +202,44 @@ V3d RegionTracer::normal(const Crossing& crossing) const
     return unit_normal(corners_of(impl_->world.regions[crossing.region], crossing.triangle));
 }
 
-bool RegionTracer::next(const V3d& o, const V3d& d, double tmin, double tmax, const Crossing* last, Crossing& crossing) const
+bool RegionTracer::find(const V3d& o, const V3d& d, double tmin, double tmax, const Crossing* last, bool surely, Crossing& crossing) const
 {
+    // A ray starts no farther away than the regions' size.
     const V3d to = impl_->middle - o;
     const double reach = impl_->radius * (1 + 0x1p-10), along = to.dot(d);
     if (along + reach < tmin || along - reach > tmax || (to - along * d).length2() > reach * reach) return false;
-    // What rounding to float may do to a ray: it starts that much early, and not farther away than the regions' size.
-    const double slack = 4 * impl_->slack;
-    CrossingQuery query{{}, impl_->world, {o, d}, tmin, tmax, std::max(tmin, along - reach) - slack, slack, last};
+    const double start = std::max(tmin, along - reach), slack = 4 * impl_->slack;
+    // One nearly along a face needs a long way back to be on its near side in float too.
+    CrossingQuery query{{}, impl_->world, {o, d}, tmin, tmax, start - 0x1p8 * slack, slack, last};
     rtcInitIntersectContext(&query.context);
-    RTCRayHit ray = make_ray(o + query.advanced * d, d, tmax - query.advanced + slack);
-    rtcIntersect1(impl_->scene, &query.context, &ray);
+    if (!surely) {
+        impl_->find(query, impl_->triangles, o, d);
+        surely = query.doubtful;
+    }
+    if (surely) {
+        query.best = tmax;
+        query.found = false;
+        query.advanced = start - slack;
+        impl_->find(query, impl_->boxes, o, d);
+    }
     if (query.found) crossing = query.crossing;
     return query.found;
+}
+
+bool RegionTracer::next(const V3d& o, const V3d& d, double tmin, double tmax, const Crossing* last, RegionSet& regions, Crossing& crossing) const
+{
+    // What is ahead tells where the ray is: of one that is in a region, all the way.
+    const double end = regions != 0 ? std::numeric_limits<double>::infinity() : tmax;
+    Crossing ahead; // last may be what the caller keeps its crossing in
+    bool crosses = find(o, d, tmin, end, last, false, ahead);
+    const auto told = [&] { return before(regions, crosses ? &ahead : nullptr); };
+    if (crosses || std::isinf(end)) {
+        if (told() != regions) crosses = find(o, d, tmin, end, last, true, ahead);
+        regions = told();
+    }
+    if (!crosses || ahead.t >= tmax) return false;
+    crossing = ahead;
+    return true;
 }
 
 RegionSet RegionTracer::inside(const V3d& o, const V3d& d) const
@@ -174,7 +247,7 @@ RegionSet RegionTracer::inside(const V3d& o, const V3d& d) const
     RegionSet in = 0, met = 0;
     Crossing crossing;
     const Crossing* last = nullptr;
-    for (double t = 0; next(o, d, t, std::numeric_limits<double>::infinity(), last, crossing); t = crossing.t, last = &crossing) {
+    for (double t = 0; find(o, d, t, std::numeric_limits<double>::infinity(), last, false, crossing); t = crossing.t, last = &crossing) {
         const RegionSet bit = RegionSet{1} << crossing.region;
         if (!(met & bit) && !crossing.enters) in |= bit;
         met |= bit;
@@ -190,7 +263,7 @@ RegionSet RegionTracer::after(RegionSet from, const V3d& a, const V3d& b) const
     const V3d d = way / length;
     Crossing crossing;
     const Crossing* last = nullptr;
-    for (double t = 0; next(a, d, t, length, last, crossing); t = crossing.t, last = &crossing) from = after(from, crossing);
+    for (double t = 0; find(a, d, t, length, last, false, crossing); t = crossing.t, last = &crossing) from = after(from, crossing);
     return from;
 }
 

@@ -54,9 +54,11 @@ TEST(RegionTracer, ARayFromWithinAlwaysLeaves)
         const V3d on = place_on(corners_of(ball, static_cast<size_t>(sampler.next() * static_cast<double>(ball.triangles.size()))), sampler, i, depth);
         const V3d o = on + depth * (middle - on), d = random_direction(sampler);
         Crossing first, second;
-        ASSERT_TRUE(tracer.next(o, d, 0, infinity, nullptr, first)) << "from " << o << " along " << d << ", " << depth << " deep";
+        RegionSet regions = 1;
+        ASSERT_TRUE(tracer.next(o, d, 0, infinity, nullptr, regions, first)) << "from " << o << " along " << d << ", " << depth << " deep";
         ASSERT_FALSE(first.enters) << "from " << o << " along " << d << ", " << depth << " deep";
-        ASSERT_FALSE(tracer.next(o, d, first.t, infinity, &first, second)) << "from " << o << " along " << d << ", " << depth << " deep";
+        regions = RegionTracer::after(regions, first);
+        ASSERT_FALSE(tracer.next(o, d, first.t, infinity, &first, regions, second)) << "from " << o << " along " << d << ", " << depth << " deep";
     }
 }
 
@@ -72,15 +74,16 @@ TEST(RegionTracer, ARayFromOutsideEntersAndLeavesInTurn)
         const auto c = corners_of(ball, static_cast<size_t>(sampler.next() * static_cast<double>(ball.triangles.size())));
         const V3d beside = std::pow(10.0, -3 - 6 * sampler.next()) * random_direction(sampler); // what only touches a corner may do either
         const V3d o = place_on(c, sampler, i, 1e-7) + beside - 3 * std::pow(10.0, 2 * sampler.next()) * d;
-        RegionSet inside = 0;
+        RegionSet regions = 0, known = 0;
         Crossing crossing;
         const Crossing* last = nullptr;
-        for (double t = 0; tracer.next(o, d, t, infinity, last, crossing); t = crossing.t, last = &crossing) {
-            ASSERT_NE(crossing.enters, inside != 0) << "from " << o << " along " << d;
-            inside = RegionTracer::after(inside, crossing);
+        for (double t = 0; tracer.next(o, d, t, infinity, last, regions, crossing); t = crossing.t, last = &crossing) {
+            ASSERT_EQ(regions, known) << "from " << o << " along " << d;
+            ASSERT_NE(crossing.enters, regions != 0) << "from " << o << " along " << d;
+            known = regions = RegionTracer::after(regions, crossing);
             ++met;
         }
-        ASSERT_EQ(inside, 0u) << "from " << o << " along " << d;
+        ASSERT_EQ(known, 0u) << "from " << o << " along " << d;
     }
     EXPECT_GT(met, 600000); // most of these rays go through
 }
