@@ -17,46 +17,27 @@ std::array<V3d, 3> corners_of(const MediumRegion& region, uint32_t triangle)
     return {V3d(region.positions[t[0]]), V3d(region.positions[t[1]]), V3d(region.positions[t[2]])};
 }
 
-/// A ray along which triangles are seen in a plane, sheared so that it is a point there (Woop, Benthin and Wald 2013, in double): of two triangles
-/// that share an edge the same number says on which side of it the ray passes, so that no ray goes between them.
-struct ShearedRay {
-    V3d o;
-    int x, y, z; // axes of the plane, and the one that the ray goes along most
-    double shear_x, shear_y, along;
-
-    ShearedRay(const V3d& o_, const V3d& d) : o(o_)
-    {
-        z = std::abs(d.x) > std::abs(d.y) ? 0 : 1;
-        if (std::abs(d.z) > std::abs(d[z])) z = 2;
-        x = (z + 1) % 3;
-        y = (z + 2) % 3;
-        if (d[z] < 0) std::swap(x, y);
-        shear_x = d[x] / d[z];
-        shear_y = d[y] / d[z];
-        along = d[z];
-    }
-
-    /// False where the ray passes beside the triangle or within its plane.
-    bool meets(const std::array<V3d, 3>& corners, double& t, bool& enters) const
-    {
-        const V3d a = corners[0] - o, b = corners[1] - o, c = corners[2] - o;
-        const double ax = a[x] - shear_x * a[z], ay = a[y] - shear_y * a[z], bx = b[x] - shear_x * b[z], by = b[y] - shear_y * b[z];
-        const double cx = c[x] - shear_x * c[z], cy = c[y] - shear_y * c[z];
-        const double u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
-        if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return false;
-        const double sum = u + v + w;
-        if (sum == 0) return false;
-        t = (u * a[z] + v * b[z] + w * c[z]) / (sum * along);
-        enters = sum > 0;
-        return true;
-    }
-};
+/// Where o + t d meets a triangle; false where it passes beside it or within its plane.
+///
+/// On which side of an edge a ray passes is the sign of a volume, which for two triangles that share the edge is the same number: no ray goes between them
+/// (Platis and Theoharis 2003, in double).
+bool meets(const std::array<V3d, 3>& corners, const V3d& o, const V3d& d, double& t, bool& enters)
+{
+    const V3d a = corners[0] - o, b = corners[1] - o, c = corners[2] - o;
+    const double u = d.dot(b.cross(c)), v = d.dot(c.cross(a)), w = d.dot(a.cross(b));
+    if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return false;
+    const double sum = u + v + w;
+    if (sum == 0) return false;
+    t = d.dot(u * a + v * b + w * c) / sum;
+    enters = sum < 0;
+    return true;
+}
 
 /// What a ray carries through Embree, and the nearest crossing so far.
 struct CrossingQuery {
     RTCIntersectContext context; // first: Embree hands it back
     const World& world;
-    ShearedRay ray;
+    V3d o, d;
     double tmin, best, advanced; // Embree's ray starts at o + advanced d
     double slack;                // what rounding to float may move a crossing by
     const Crossing* last;
@@ -68,7 +49,7 @@ struct CrossingQuery {
     bool offer(uint32_t region, uint32_t triangle, RTCRay& embree)
     {
         Crossing met{0, region, triangle, false};
-        if (!ray.meets(corners_of(world.regions[region], triangle), met.t, met.enters)) {
+        if (!meets(corners_of(world.regions[region], triangle), o, d, met.t, met.enters)) {
             doubtful = true;
             return false;
         }
@@ -131,7 +112,7 @@ struct RegionTracer::Impl {
         if (triangles) rtcReleaseScene(triangles);
         if (boxes) rtcReleaseScene(boxes);
     }
-    void find(CrossingQuery& query, RTCScene scene, const V3d& o, const V3d& d) const;
+    void find(CrossingQuery& query, RTCScene scene) const;
 
 private:
     void add(RTCScene scene, RTCGeometry geometry, uint32_t number) const
@@ -181,9 +162,9 @@ RegionTracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const Worl
 }
 
 /// Embree's ray may start up to slack early and end as much late, which is what rounding to float may move it by.
-void RegionTracer::Impl::find(CrossingQuery& query, RTCScene scene, const V3d& o, const V3d& d) const
+void RegionTracer::Impl::find(CrossingQuery& query, RTCScene scene) const
 {
-    RTCRayHit ray = make_ray(o + query.advanced * d, d, query.best - query.advanced + query.slack);
+    RTCRayHit ray = make_ray(query.o + query.advanced * query.d, query.d, query.best - query.advanced + query.slack);
     rtcIntersect1(scene, &query.context, &ray);
 }
 
@@ -210,17 +191,17 @@ bool RegionTracer::find(const V3d& o, const V3d& d, double tmin, double tmax, co
     if (along + reach < tmin || along - reach > tmax || (to - along * d).length2() > reach * reach) return false;
     const double start = std::max(tmin, along - reach), slack = 4 * impl_->slack;
     // One nearly along a face needs a long way back to be on its near side in float too.
-    CrossingQuery query{{}, impl_->world, {o, d}, tmin, tmax, start - 0x1p8 * slack, slack, last};
+    CrossingQuery query{{}, impl_->world, o, d, tmin, tmax, start - 0x1p8 * slack, slack, last};
     rtcInitIntersectContext(&query.context);
     if (!surely) {
-        impl_->find(query, impl_->triangles, o, d);
+        impl_->find(query, impl_->triangles);
         surely = query.doubtful;
     }
     if (surely) {
         query.best = tmax;
         query.found = false;
         query.advanced = start - slack;
-        impl_->find(query, impl_->boxes, o, d);
+        impl_->find(query, impl_->boxes);
     }
     if (query.found) crossing = query.crossing;
     return query.found;
