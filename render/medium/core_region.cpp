@@ -1,8 +1,7 @@
 #include "render/medium/core_region.h"
 
 #include "ingest/support/error.h"
-#include "render/medium/grain_hull.h"
-#include "render/medium/level_set_surface.h"
+#include "render/medium/hull_inset.h"
 #include "render/medium/sphere_bins.h"
 #include "render/medium/surface_shells.h"
 
@@ -58,11 +57,11 @@ std::optional<RegionSurface> core_of_spheres(std::span<const GrainStore::Sphere>
     if (!(radius > 0)) return std::nullopt;
     const double closing = options.closing * radius;
     const VoxelLattice lattice{V3d(0), options.voxel * radius};
-    const RegionSurface dilated = dilated_spheres(spheres, closing, lattice, progress);
-    if (dilated.triangles.empty()) return std::nullopt;
-    // The deeper, the smoother: finer voxels would cost most of the time that a heap takes to set up, and tell no more.
-    const double wanted = std::max(lattice.voxel, (closing + depth) / voxels_deep), voxel = affordable_voxel(dilated, closing + depth, wanted);
-    auto core = inset_on_lattice(dilated, closing + depth, {lattice.origin, voxel}, progress, "core of the heap");
+    const GrainHull dilated = dilated_spheres(spheres, closing, lattice, progress);
+    if (dilated.surface.triangles.empty()) return std::nullopt;
+    // The deeper, the smoother: finer voxels would tell no more.
+    const double wanted = std::max(lattice.voxel, (closing + depth) / voxels_deep), voxel = affordable_voxel(dilated.surface, closing + depth, wanted);
+    auto core = inset_of_hull(dilated, closing + depth, {lattice.origin, voxel}, progress);
     if (core) core->coarsened = voxel > wanted;
     return core;
 }

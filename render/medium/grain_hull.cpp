@@ -159,7 +159,7 @@ openvdb::FloatGrid::Ptr gather(std::vector<std::vector<FoundLeaf>>& leaves)
 
 } // namespace
 
-RegionSurface dilated_spheres(Spheres spheres, double more, const VoxelLattice& lattice, const Progress& progress)
+GrainHull dilated_spheres(Spheres spheres, double more, const VoxelLattice& lattice, const Progress& progress)
 {
     openvdb::initialize();
     const Dilation dilation(spheres, more, lattice);
@@ -177,10 +177,10 @@ RegionSurface dilated_spheres(Spheres spheres, double more, const VoxelLattice& 
         if (const uint64_t n = ++done; n % 64 == 0) progress.update("hull of the heap", static_cast<double>(n) / static_cast<double>(leaves.size()));
     });
     if (progress.cancelled()) throw Cancelled();
-    const auto grid = gather(leaves);
-    RegionSurface surface = level_surface(*grid, 0, lattice);
+    GrainHull hull{gather(leaves), lattice, {}};
+    hull.surface = level_surface(*hull.field, 0, lattice);
     progress.update("hull of the heap", 1);
-    return surface;
+    return hull;
 }
 
 } // namespace scree
