@@ -45,7 +45,7 @@ std::optional<RegionSurface> inset_of_mesh(std::span<const V3f> positions, std::
     const double voxel = affordable_voxel(surface, depth, wanted);
     // A little aside, so that no face of a box runs through voxels' centres.
     const VoxelLattice lattice{bounds.min - V3d(0.37, 0.41, 0.43) * voxel, voxel};
-    auto inset = inset_on_lattice(surface, depth, lattice, progress, "medium's surface");
+    auto inset = inset_on_lattice(surface, depth, lattice, progress);
     if (inset) inset->coarsened = voxel > wanted;
     return inset;
 }

@@ -12,6 +12,7 @@ namespace scree {
 namespace {
 
 constexpr double most_voxels = 8e6; ///< half a gigabyte while it works, a million triangles
+constexpr const char* stage = "medium's surface"; ///< of the progress
 constexpr double margin = 3; ///< voxels of the band beyond what is asked for, so that the level lies well inside of it
 
 /// A surface as OpenVDB wants to see it, without a copy.
@@ -35,17 +36,16 @@ private:
 
 class Interrupter final : public openvdb::util::NullInterrupter {
 public:
-    Interrupter(const Progress& progress, std::string stage) : progress_(progress), stage_(std::move(stage)) {}
+    explicit Interrupter(const Progress& progress) : progress_(progress) {}
 
     bool wasInterrupted(int percent = -1) override
     {
-        if (percent >= 0) progress_.update(stage_, 0.01 * percent);
+        if (percent >= 0) progress_.update(stage, 0.01 * percent);
         return progress_.cancelled();
     }
 
 private:
     const Progress& progress_;
-    std::string stage_;
 };
 
 } // namespace
@@ -77,11 +77,10 @@ double affordable_voxel(const RegionSurface& surface, double depth, double wante
     return voxel;
 }
 
-std::optional<RegionSurface> inset_on_lattice(const RegionSurface& surface, double depth, const VoxelLattice& lattice, const Progress& progress,
-                                              const std::string& stage)
+std::optional<RegionSurface> inset_on_lattice(const RegionSurface& surface, double depth, const VoxelLattice& lattice, const Progress& progress)
 {
     const double level = depth / lattice.voxel;
-    Interrupter interrupter(progress, stage);
+    Interrupter interrupter(progress);
     // Renormalising would move what is exact; it mends self-intersecting meshes only.
     // What it takes for self-intersections may be the walls of cavities.
     const int flags = openvdb::tools::DISABLE_RENORMALIZATION | openvdb::tools::DISABLE_NARROW_BAND_TRIMMING |

@@ -4,8 +4,6 @@
 
 #include <openvdb/openvdb.h>
 
-#include <string>
-
 namespace scree {
 
 /// Voxel (i, j, k) of a grid of identity transform belongs to origin + voxel * (i, j, k); values are in voxels.
@@ -21,8 +19,7 @@ struct VoxelLattice {
 RegionSurface level_surface(const openvdb::FloatGrid& grid, double level, const VoxelLattice& lattice);
 
 /// All points deeper than `depth` below a closed surface (may have shells that face inwards), found in voxels of one size; Throws Cancelled.
-std::optional<RegionSurface> inset_on_lattice(const RegionSurface& surface, double depth, const VoxelLattice& lattice, const Progress& progress,
-                                              const std::string& stage);
+std::optional<RegionSurface> inset_on_lattice(const RegionSurface& surface, double depth, const VoxelLattice& lattice, const Progress& progress);
 
 /// The least voxel, at least `wanted`, with which the band between a surface and its inset has no more voxels than fit.
 double affordable_voxel(const RegionSurface& surface, double depth, double wanted);
