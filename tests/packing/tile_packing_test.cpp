@@ -185,7 +185,8 @@ TEST(TileRelaxation, TwoSpheresPartAlongTheirLine)
 {
     TileSpheres spheres;
     spheres.radius = {0.1, 0.1};
-    spheres.place = {{0.98, 0.5, 0.5}, {0.08, 0.5, 0.5}};
+    spheres.place.assign(2, {0.98, 0.5, 0.5});
+    spheres.place[1].x = 0.08;
     TileRelaxation soft(spheres);
     EXPECT_EQ(soft.relax(1, {.allowed = 1e-6}, {}), TileRelaxation::Outcome::separated);
     const std::vector<Imath::V3d> places = soft.places();
