@@ -10,7 +10,9 @@ namespace scree {
 namespace {
 
 constexpr double worst_tile = 2; // times the error asked for
-constexpr double neighbours = 0.25; // what part of the variance around a tile is expected in it, whatever it saw itself
+constexpr double foresight = 0.5; // what part of a count the other half must have seen to decide on it
+constexpr double expected = 0.5; // sightings: what the tiles around tell of a tile weighs as much as so many of its own
+constexpr double caution = 0.5; // standard errors more than was seen: who stops at a low estimate stops too early
 
 double trace(const V3d& v) { return v.x + v.y + v.z; }
 
@@ -121,7 +123,9 @@ AdaptivePlan::AdaptivePlan(TileStates& states, int columns, double error)
 
 bool AdaptivePlan::finished() const
 {
-    return std::ranges::none_of(states_.tiles, [](const TileState& tile) { return tile.counts.going(); });
+    return std::ranges::all_of(states_.tiles, [this](const TileState& tile) {
+        return !tile.counts.going() && std::max(tile.counts.counts[0], tile.counts.counts[1]) <= states_.done;
+    });
 }
 
 uint32_t AdaptivePlan::least_samples(double error)
@@ -132,6 +136,17 @@ uint32_t AdaptivePlan::least_samples(double error)
 uint32_t AdaptivePlan::next_level(uint32_t level, uint32_t least)
 {
     return level < least ? std::min(2 * level, least) : level + level / 4;
+}
+
+std::array<uint32_t, 2> AdaptivePlan::asked(size_t tile) const
+{
+    const std::array<uint32_t, 2>& counts = states_.tiles[tile].counts.counts;
+    std::array<uint32_t, 2> asked{};
+    for (int half = 0; half < 2; ++half) {
+        const uint32_t count = counts[static_cast<size_t>(half)];
+        asked[static_cast<size_t>(half)] = judges(tile, half) ? states_.level : std::min(states_.level, count);
+    }
+    return asked;
 }
 
 V3d AdaptivePlan::mean(int half) const
@@ -152,17 +167,23 @@ std::vector<double> AdaptivePlan::wanted(int half) const
     double sum = 0, pixels = 0;
     for (int row = 0; row < rows_; ++row) {
         for (int column = 0; column < columns_; ++column) {
-            double around = 0, count = 0;
+            double around = 0, noise = 0, count = 0;
             for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r) {
                 for (int c = std::max(0, column - 1); c <= std::min(columns_ - 1, column + 1); ++c) {
                     const TileEstimate& near = states_.tiles[static_cast<size_t>(r * columns_ + c)].estimates[static_cast<size_t>(half)];
-                    around += near.variance * static_cast<double>(near.pixels);
-                    count += static_cast<double>(near.pixels);
+                    const double n = static_cast<double>(near.pixels);
+                    around += near.variance * n;
+                    noise += near.deviation * near.deviation * n;
+                    count += n;
                 }
             }
             const TileEstimate& own = states_.tiles[static_cast<size_t>(row * columns_ + column)].estimates[static_cast<size_t>(half)];
-            // A standard error more than was seen: who stops at the first low estimate stops too early.
-            const double variance = std::max(own.variance + own.deviation, count > 0 ? neighbours * around / count : 0);
+            double variance = own.variance;
+            if (noise > 0) {
+                // As if all variance were rare sightings of equal light: a tile is expected to have so many. One that has none may have missed them.
+                const double sightings = around * around / (noise * count), known = sightings + expected;
+                variance = (sightings * own.variance + expected * around / count) / known * (1 + caution / std::sqrt(known));
+            }
             variances.push_back(variance);
             samples.push_back(std::sqrt(variance / own.work));
             sum += std::sqrt(variance * own.work) * static_cast<double>(own.pixels);
@@ -185,12 +206,14 @@ void AdaptivePlan::decide()
         for (size_t i = 0; i < states_.tiles.size(); ++i) {
             uint32_t& other = states_.tiles[i].counts.counts[static_cast<size_t>(1 - half)];
             const double pixels = static_cast<double>(states_.tiles[i].estimates[0].pixels);
-            if (other == undecided && states_.level >= least_ && states_.level >= samples[i]) other = states_.level;
-            const double have = std::min(states_.level, other);
-            made_ += pixels * have;
-            needed_ += pixels * (other == undecided ? std::max(have, samples[i]) : have);
+            if (other == undecided && states_.level >= least_ && states_.level >= foresight * samples[i]) {
+                other = std::max(states_.level, static_cast<uint32_t>(std::ceil(samples[i])));
+            }
+            made_ += pixels * std::min(states_.level, other);
+            needed_ += pixels * (other == undecided ? std::max<double>(states_.level, samples[i]) : other);
         }
     }
+    states_.done = states_.level;
     states_.level = next_level(states_.level, least_);
 }
 

@@ -3,6 +3,7 @@
 #include "render/film/film.h"
 #include "render/film/relative_error.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -12,9 +13,10 @@ namespace scree {
 /// How many samples each tile of a picture gets so that its error ends at a relative error.
 ///
 /// All tiles that go on are brought to the same level, a fixed sequence of counts a half; then each half says, from its own
-/// first samples everywhere alone, in which tiles the other half has enough, for good. So how many samples count of a half
-/// depends on the other half only, and its mean over them is unbiased. Samples a half draws past its count, because the
-/// other one still needs its judgement, are not in the picture. Biased if done in one: Kirk and Arvo 1991.
+/// first samples everywhere alone, how many of the other half's a tile gets, for good, as soon as it has half as many there itself.
+/// So how many samples count of a half depends on the other half only, and its mean over them is unbiased; and what it judges
+/// by mostly counts too, as the other half gives it more than that. The few samples past its count are not in the picture.
+/// The halves count alike: weights by their counts would weigh each by what itself has seen. Biased if done in one: Kirk and Arvo 1991.
 ///
 /// The mean error over the picture is reached with the least work when a tile gets samples by the root of its variance over
 /// what one of them costs (Neyman 1934); but no tile is left above twice the error. Costs are steps of paths, not seconds: the same
@@ -25,13 +27,17 @@ public:
     /// over the pixels.
     AdaptivePlan(TileStates& states, int columns, double error);
 
+    /// Whether all is decided and drawn.
     bool finished() const;
     /// Whether a half's estimate of a tile is still asked for: the other half is undecided there.
     bool judges(size_t tile, int half) const { return states_.tiles[tile].counts.counts[static_cast<size_t>(1 - half)] == undecided; }
 
+    /// How many samples of each half the pixels of a tile should have by now.
+    std::array<uint32_t, 2> asked(size_t tile) const;
+
     /// Of what the halves of the tiles said last, in all tiles; for the scale of dark pixels.
     V3d mean(int half) const;
-    /// Decides for the tiles still going, from estimates at the states' level, and goes to the next level.
+    /// Decides for the tiles still going, from estimates at the states' level, which is drawn, and goes to the next level.
     void decide();
     /// Of all samples that are going to be needed, by the last decision, those that a level makes; 0..1.
     double progress() const;

@@ -53,11 +53,11 @@ Row row_of(const std::string& name, const Adaptive& adaptive, const MethodRun& u
     Row row{name, fmt::format("{:.3g} %", 100 * adaptive.asked), error_of(squared, noise), root_words(adaptive.claim / n), root_words(noise.value), fmt::format("{:.0f}", adaptive.samples / n), "-",
             fmt::format("{:.2f}", adaptive.seconds / n), "-", "-"};
     if (!(squared.value > squared.error) || !(noise.value > 0)) return row;
-    const double times = noise.value / squared.value; // of the uniform pictures' work, to the same error
-    const double seconds = uniform.total_time().processor * times, ratio = seconds * n / adaptive.seconds;
-    row[6] = fmt::format("{:.0f}", static_cast<double>(uniform.total_samples()) * times);
-    row[8] = fmt::format("{:.2f}", seconds);
-    row[9] = fmt::format("{:.2f} +- {:.2f}", ratio, ratio * std::hypot(squared.error / squared.value, noise.error / noise.value));
+    const Measured part = part_to_error(adaptive.pictures, reference);
+    const double seconds = uniform.total_time().processor, ratio = seconds * n / adaptive.seconds;
+    row[6] = fmt::format("{:.0f}", static_cast<double>(uniform.total_samples()) * part.value);
+    row[8] = fmt::format("{:.2f}", seconds * part.value);
+    row[9] = fmt::format("{:.2f} +- {:.2f}", ratio * part.value, ratio * part.error);
     return row;
 }
 

@@ -75,6 +75,14 @@ Measured relative_mean(const std::vector<double>& weights, bool known, Of of)
     return result;
 }
 
+/// Of one pixel, as the function of pictures has its mean.
+double squared_error(const std::vector<std::vector<V3d>>& pictures, const HalfPictures& reference, size_t p)
+{
+    double squares = 0;
+    for (const std::vector<V3d>& picture : pictures) squares += (picture[p] - reference.whole(p)).length2();
+    return squares / static_cast<double>(pictures.size()) - channel_sum(reference.noise(p));
+}
+
 /// As estimate_error says.
 Measured squared_bias(const HalfPictures& picture, const HalfPictures& reference, const std::vector<double>& weights)
 {
@@ -115,11 +123,20 @@ ErrorEstimate estimate_error(const HalfPictures& picture, const HalfPictures& re
 
 Measured squared_error(const std::vector<std::vector<V3d>>& pictures, const HalfPictures& reference)
 {
-    return relative_mean(weights_of(reference), reference.has_noise(), [&](size_t p) {
-        double squares = 0;
-        for (const std::vector<V3d>& picture : pictures) squares += (picture[p] - reference.whole(p)).length2();
-        return squares / static_cast<double>(pictures.size()) - channel_sum(reference.noise(p));
-    });
+    return relative_mean(weights_of(reference), reference.has_noise(), [&](size_t p) { return squared_error(pictures, reference, p); });
+}
+
+Measured part_to_error(const std::vector<std::vector<V3d>>& pictures, const HalfPictures& reference)
+{
+    const std::vector<double> weights = weights_of(reference);
+    const auto noise = [&](size_t p) { return channel_sum(reference.noise(p)); };
+    const double variance = relative_mean(weights, true, noise).value;
+    const double squared = relative_mean(weights, true, [&](size_t p) { return squared_error(pictures, reference, p); }).value;
+    const double part = variance / squared;
+    // To first order, what a pixel adds to the difference of the two.
+    Measured result = relative_mean(weights, reference.has_noise(), [&](size_t p) { return (noise(p) - part * squared_error(pictures, reference, p)) / squared; });
+    result.value = part;
+    return result;
 }
 
 } // namespace scree

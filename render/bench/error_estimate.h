@@ -49,4 +49,8 @@ ErrorEstimate estimate_error(const HalfPictures& picture, const HalfPictures& re
 /// The squared relative error of one picture, as the mean over several of them, less the reference's noise.
 Measured squared_error(const std::vector<std::vector<V3d>>& pictures, const HalfPictures& reference);
 
+/// The reference's variance over the squared error of one of the pictures: the part of the reference's samples that reaches it.
+/// What of the reference's noise is chance tells in both, against each other; the standard error holds that.
+Measured part_to_error(const std::vector<std::vector<V3d>>& pictures, const HalfPictures& reference);
+
 } // namespace scree

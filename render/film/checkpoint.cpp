@@ -34,7 +34,7 @@ std::vector<T> read_all(std::ifstream& in, const std::vector<T>& like)
 
 /// The head of the file: everything that must agree, in the machine's own byte order and layout.
 struct Head {
-    std::array<char, 8> magic{'s', 'c', 'r', 'e', 'e', 'c', 'k', '3'};
+    std::array<char, 8> magic{'s', 'c', 'r', 'e', 'e', 'c', 'k', '4'};
     uint64_t scene_hash, seed, pixel_bytes = sizeof(Pixel), halves; ///< halves: how many pixels have them
     std::array<int32_t, 6> window;
 
@@ -56,7 +56,7 @@ void write_checkpoint(const std::filesystem::path& path, const Film& film, const
     write_all(out, film.pixels());
     write_all(out, film.halves());
     write_all(out, film.tile_states().tiles);
-    out.write(reinterpret_cast<const char*>(&film.tile_states().level), sizeof film.tile_states().level);
+    for (const uint32_t* x : {&film.tile_states().done, &film.tile_states().level}) out.write(reinterpret_cast<const char*>(x), sizeof *x);
     out.close();
     if (!out) throw InputError(path.string(), "a disk that is full or cannot be written", "room for the checkpoint");
     file.commit();
@@ -79,7 +79,7 @@ void read_checkpoint(const std::filesystem::path& path, Film& film, const Checkp
     std::vector<PixelHalves> halves = read_all(in, film.halves());
     TileStates states;
     states.tiles = read_all(in, film.tile_states().tiles);
-    in.read(reinterpret_cast<char*>(&states.level), sizeof states.level);
+    for (uint32_t* x : {&states.done, &states.level}) in.read(reinterpret_cast<char*>(x), sizeof *x);
     if (!in) throw InputError(path.string(), "a checkpoint that ends early", "a whole one", "remove it, or render without --resume");
     film.pixels() = std::move(pixels);
     film.halves() = std::move(halves);

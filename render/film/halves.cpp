@@ -19,6 +19,16 @@ V3d HalfSums::variance() const
     return {std::max(0.0, v.x), std::max(0.0, v.y), std::max(0.0, v.z)};
 }
 
+std::optional<uint32_t> PixelHalves::next(const std::array<uint32_t, 2>& each) const
+{
+    std::optional<uint32_t> least;
+    for (uint32_t h = 0; h < 2; ++h) {
+        const uint32_t number = 2 * drawn_[h] + h;
+        if (drawn_[h] < each[h] && (!least || number < *least)) least = number;
+    }
+    return least;
+}
+
 void PixelHalves::add(uint32_t number, const Color& radiance, const HalfCounts& counts)
 {
     const size_t h = number & 1;

@@ -5,13 +5,14 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace scree {
 
 inline constexpr uint32_t undecided = std::numeric_limits<uint32_t>::max();
 
-/// How many samples of each half count in the pixels of a tile; `undecided` while it may still be more.
+/// How many samples of each half count in the pixels of a tile, drawn yet or not; `undecided` while that may be any number.
 ///
 /// Half 0 has the samples of even number, half 1 those of odd number. counts[0] is decided by half 1 alone and the other way
 /// round, so that a half's mean is unbiased whatever was drawn.
@@ -35,6 +36,10 @@ struct HalfSums {
 /// The samples of a pixel in two halves that share nothing.
 class PixelHalves {
 public:
+    /// The number of the sample to draw next, the lowest, so that in the end each half has had so many; nothing once it has.
+    std::optional<uint32_t> next(const std::array<uint32_t, 2>& each) const;
+    /// A sample was drawn, finite or not.
+    void note_drawn(uint32_t number) { ++drawn_[number & 1]; }
     /// number: of the sample, from 0; those past what counts only help to judge the other half.
     void add(uint32_t number, const Color& radiance, const HalfCounts& counts);
 
@@ -48,6 +53,7 @@ public:
     V3d variance() const;
 
 private:
+    std::array<uint32_t, 2> drawn_{0, 0};
     std::array<HalfSums, 2> halves_;
     HalfSums late_; ///< of the half that was decided first: at most one goes on for the other's sake
 };
@@ -68,9 +74,9 @@ struct TileState {
     std::array<TileEstimate, 2> estimates;
 };
 
-/// How far a picture has come: its tiles, and the samples of each half that tiles still going have next.
+/// How far a picture has come: its tiles, and the samples of each half that there are, and are next, wherever they are asked for.
 struct TileStates {
-    uint32_t level = 1;
+    uint32_t done = 0, level = 1;
     std::vector<TileState> tiles;
 };
 

@@ -19,20 +19,21 @@ struct RareLight {
     Color operator()(Sampler& sampler) const { return Color(static_cast<float>(0.5 + (sampler.next() < p ? 0.5 / p : 0.0))); }
 };
 
-void draw(Film& film, int tile, uint32_t target, uint64_t seed, const RareLight& light)
+/// each: half of every pixel.
+void draw(Film& film, int tile, const std::array<uint32_t, 2>& each, uint64_t seed, const RareLight& light)
 {
     TileState& state = film.tile_states().tiles[static_cast<size_t>(tile)];
     const int x0 = tile % film.tile_columns() * Film::tile_size, y0 = tile / film.tile_columns() * Film::tile_size;
     for (int y = y0; y < std::min(y0 + Film::tile_size, film.y1()); ++y) {
         for (int x = x0; x < std::min(x0 + Film::tile_size, film.x1()); ++x) {
-            Pixel& pixel = film.at(x, y);
-            while (pixel.drawn < target) {
-                const uint32_t s = pixel.drawn++;
-                Sampler sampler(seed, static_cast<uint32_t>(x), static_cast<uint32_t>(y), s);
+            PixelHalves& halves = film.halves_at(x, y);
+            while (const std::optional<uint32_t> s = halves.next(each)) {
+                Sampler sampler(seed, static_cast<uint32_t>(x), static_cast<uint32_t>(y), *s);
                 const Color radiance = light(sampler);
-                pixel.add(radiance, {});
-                state.work[s & 1] += radiance.x > 1 ? 100 : 1; // light is dear to find
-                film.halves_at(x, y).add(s, radiance, state.counts);
+                film.at(x, y).add(radiance, {});
+                state.work[*s & 1] += radiance.x > 1 ? 100 : 1; // light is dear to find
+                halves.note_drawn(*s);
+                halves.add(*s, radiance, state.counts);
             }
         }
     }
@@ -45,10 +46,16 @@ bool draw_to_error(Film& film, double error, uint32_t most, uint64_t seed, const
     TileStates& states = film.tile_states();
     AdaptivePlan plan(states, film.tile_columns(), error);
     while (!plan.finished()) {
+        bool limited = false;
         for (size_t i = 0; i < states.tiles.size(); ++i) {
-            if (states.tiles[i].counts.going()) draw(film, static_cast<int>(i), 2 * std::min(states.level, most), seed, light);
+            std::array<uint32_t, 2> each = plan.asked(i);
+            for (uint32_t& n : each) {
+                limited = limited || n > most;
+                n = std::min(n, most);
+            }
+            draw(film, static_cast<int>(i), each, seed, light);
         }
-        if (states.level > most) return false;
+        if (limited) return false;
         estimate_tiles(film, plan);
         plan.decide();
     }
@@ -64,7 +71,7 @@ double naive_mean(double error, uint32_t most, uint64_t seed, const RareLight& l
     for (int tile = 0; tile < film.tile_columns() * film.tile_rows(); ++tile) {
         double mean = 0;
         for (uint32_t level = AdaptivePlan::least_samples(error);; level = AdaptivePlan::next_level(level, AdaptivePlan::least_samples(error))) {
-            draw(film, tile, 2 * level, seed, light);
+            draw(film, tile, {level, level}, seed, light);
             double variance = 0;
             mean = 0;
             for (int y = 0; y < Film::tile_size; ++y) {
@@ -165,20 +172,27 @@ TEST(Adaptive, GivesTilesByTheRootOfTheirVarianceAndLooksAround)
     states.tiles.resize(5);
     AdaptivePlan plan(states, 5, 0.05);
     const double variances[] = {0, 1, 1, 0, 0};
-    for (size_t i = 0; i < 5; ++i) {
-        for (TileEstimate& estimate : states.tiles[i].estimates) estimate = {256, V3d(256), variances[i], 0};
-    }
-    states.level = AdaptivePlan::least_samples(0.05);
-    plan.decide();
+    const auto decide = [&](double deviation) {
+        for (size_t i = 0; i < 5; ++i) {
+            states.tiles[i].counts = {};
+            for (TileEstimate& estimate : states.tiles[i].estimates) estimate = {256, V3d(256), variances[i], deviation * variances[i]};
+        }
+        states.level = AdaptivePlan::least_samples(0.05);
+        plan.decide();
+    };
+    decide(1); // a sighting or so a tile
     EXPECT_TRUE(states.tiles[0].counts.going()) << "a quiet tile beside a noisy one";
     EXPECT_TRUE(states.tiles[3].counts.going());
     EXPECT_FALSE(states.tiles[4].counts.going()) << "nothing there nor around";
+    decide(0.01);
+    EXPECT_FALSE(states.tiles[0].counts.going()) << "what is surely quiet";
+    EXPECT_TRUE(states.tiles[1].counts.going());
 }
 
 TEST(Adaptive, GivesTilesByTheRootOfWhatTheirSamplesCost)
 {
-    // Wanted of each half at 5 %: (1 + 2) / 2 / sqrt(work) / (2 * 0.05^2), 300 and 150.
-    for (const uint32_t level : {140, 160, 290, 310}) {
+    // Wanted of each half at 5 %: (1 + 2) / 2 / sqrt(work) / (2 * 0.05^2), 300 and 150, decided by half as many.
+    for (const uint32_t level : {70, 80, 140, 160, 310}) {
         TileStates states;
         states.tiles.resize(2);
         states.level = level;
@@ -186,9 +200,44 @@ TEST(Adaptive, GivesTilesByTheRootOfWhatTheirSamplesCost)
         for (TileEstimate& estimate : states.tiles[0].estimates) estimate = {256, V3d(256), 1, 0, 1};
         for (TileEstimate& estimate : states.tiles[1].estimates) estimate = {256, V3d(256), 1, 0, 4};
         plan.decide();
-        EXPECT_EQ(states.tiles[0].counts.going(), level < 300) << level;
-        EXPECT_EQ(states.tiles[1].counts.going(), level < 150) << level;
+        for (const uint32_t count : states.tiles[0].counts.counts) EXPECT_EQ(count, level < 150 ? undecided : std::max(level, 300u)) << level;
+        for (const uint32_t count : states.tiles[1].counts.counts) EXPECT_EQ(count, level < 75 ? undecided : std::max(level, 150u)) << level;
     }
+}
+
+TEST(Adaptive, DrawsOfAHalfWhatCountsAndWhatItJudgesBy)
+{
+    TileStates states;
+    states.tiles.resize(1);
+    AdaptivePlan plan(states, 1, 0.1);
+    const auto asked = [&](uint32_t count0, uint32_t count1, uint32_t level) {
+        states.tiles[0].counts.counts = {count0, count1};
+        states.level = level;
+        return plan.asked(0);
+    };
+    using Each = std::array<uint32_t, 2>;
+    EXPECT_EQ(asked(undecided, undecided, 50), (Each{50, 50}));
+    EXPECT_EQ(asked(40, undecided, 50), (Each{50, 50})) << "half 0 judges past its count";
+    EXPECT_EQ(asked(70, undecided, 50), (Each{50, 50}));
+    EXPECT_EQ(asked(40, 70, 60), (Each{40, 60}));
+    EXPECT_FALSE(plan.finished());
+    EXPECT_EQ(asked(40, 70, 90), (Each{40, 70}));
+    plan.decide();
+    EXPECT_TRUE(plan.finished());
+    EXPECT_EQ(states.tiles[0].counts.counts, (Each{40, 70}));
+}
+
+TEST(Adaptive, DrawsTheSamplesOfAPixelByTheirNumber)
+{
+    PixelHalves pixel;
+    std::vector<uint32_t> drawn;
+    for (const std::array<uint32_t, 2>& each : {std::array{1u, 1u}, std::array{2u, 4u}}) {
+        while (const std::optional<uint32_t> s = pixel.next(each)) {
+            pixel.note_drawn(*s);
+            drawn.push_back(*s);
+        }
+    }
+    EXPECT_THAT(drawn, testing::ElementsAre(0, 1, 2, 3, 5, 7));
 }
 
 TEST(Adaptive, GoesOnWhereOnlyPartOfAPictureIsAskedFor)
@@ -210,9 +259,9 @@ TEST(Adaptive, ClaimsNothingOfPixelsThatHaveNoSpread)
     Film film(16, 16, 0, 0, 16, 16);
     film.keep_halves();
     const RareLight light{0.1};
-    draw(film, 0, 1, 1, light);
+    draw(film, 0, {1, 0}, 1, light);
     EXPECT_FALSE(claimed_error(film));
-    draw(film, 0, 2, 1, light);
+    draw(film, 0, {1, 1}, 1, light);
     EXPECT_TRUE(claimed_error(film));
 }
 
@@ -223,6 +272,7 @@ TEST(Adaptive, KeepsInACheckpointWhatItDecidesBy)
     film.keep_halves();
     again.keep_halves();
     film.tile_states().level = 77;
+    film.tile_states().done = 61;
     film.tile_states().tiles[2].work = {12, 34};
     film.tile_states().tiles[1].counts.counts = {5, 6};
     film.tile_states().tiles[0].estimates[1] = {1, V3d(2), 3, 4, 5};
@@ -230,6 +280,7 @@ TEST(Adaptive, KeepsInACheckpointWhatItDecidesBy)
     write_checkpoint(path, film, {1, 2});
     read_checkpoint(path, again, {1, 2});
     EXPECT_EQ(again.tile_states().level, 77u);
+    EXPECT_EQ(again.tile_states().done, 61u);
     EXPECT_EQ(again.tile_states().tiles[2].work, (std::array<uint64_t, 2>{12, 34}));
     EXPECT_EQ(again.tile_states().tiles[1].counts.counts, (std::array<uint32_t, 2>{5, 6}));
     EXPECT_EQ(again.tile_states().tiles[0].estimates[1].work, 5);

@@ -107,19 +107,24 @@ TEST(ErrorEstimate, AddsUpWithFirefliesInTheReference)
 TEST(ErrorEstimate, KnowsItsStandardErrors)
 {
     Noise of{std::mt19937_64(8)};
-    Estimate value;
-    double claimed = 0;
-    const std::vector<V3d> exact = truth();
+    Estimate value, part;
+    double claimed = 0, claimed_of_part = 0;
     for (int k = 0; k < repeats; ++k) {
         std::vector<std::vector<V3d>> pictures;
         for (int s = 0; s < 2; ++s) pictures.push_back(picture_of(1, 0.1, of).a);
-        const Measured m = squared_error(pictures, picture_of(1, 0.1, of));
+        const HalfPictures reference = picture_of(1, 0.1, of);
+        const Measured m = squared_error(pictures, reference), p = part_to_error(pictures, reference);
+        EXPECT_EQ(p.value, estimate_error(reference, reference).reference_noise.value / m.value);
         value.add(m.value);
+        part.add(p.value);
         claimed += m.error / repeats;
+        claimed_of_part += p.error / repeats;
     }
-    const double scatter = value.standard_error() * std::sqrt(repeats);
-    EXPECT_GT(claimed, 0.85 * scatter);
-    EXPECT_LT(claimed, 2 * scatter);
+    for (const auto& [estimate, told] : {std::pair(&value, claimed), std::pair(&part, claimed_of_part)}) {
+        const double scatter = estimate->standard_error() * std::sqrt(repeats);
+        EXPECT_GT(told, 0.85 * scatter);
+        EXPECT_LT(told, 2 * scatter);
+    }
 }
 
 class Unbiased : public testing::TestWithParam<bool> {};
