@@ -30,6 +30,19 @@ struct FittingShell {
     }
 };
 
+/// A ball in which a medium of grids is the same, and the shell that fits in it.
+struct SameBall {
+    double length = 0; ///< radius
+    MediumMean mean;
+    size_t number = 0; ///< of the largest shell that is not larger
+
+    /// Of that shell.
+    double radius() const { return std::min(length, Stf::radius(number) / mean.sigma_t); }
+};
+
+/// Finds a ball around a place, where nothing but the medium is within `clear`; false: none has room for a shell. count: of shells there are.
+bool fit_ball(const MediumPyramid& medium, const V3d& place, double clear, size_t count, SameBall& ball);
+
 /// The shells that light may go through in a medium, which is achromatic; safe to use from many threads.
 class MediumShells {
 public:
