@@ -128,7 +128,7 @@ void add_render_command(CLI::App& app)
     command->add_option("--grain-flights", job.grain_flights, "Below every face, no fewer mean free paths of that medium (default: 0, auto by --accuracy)")->check(CLI::NonNegativeNumber);
     command->add_option("--medium-form", a.medium_form, "How the medium of the grains is made: plain, formula, walk or decay (default)")->check(CLI::IsMember(medium_form_names));
     command->add_option("--shells", a.shells, "Whether light goes through shells in media: on or off (default: on with auto and stf)")->check(CLI::IsMember({"on", "off"}));
-    command->add_option("--least-shell", job.least_shell, "Mean free paths that the largest shell of a medium has at least, else it gets none (default: 1, auto 8)")->check(CLI::NonNegativeNumber);
+    command->add_option("--least-shell", job.least_shell, "Mean free paths that the largest shell of a medium has at least, else it gets none (default: 1; auto 8, and in grids where shells save work)")->check(CLI::NonNegativeNumber);
     command->add_option("--stf-form", a.stf_form, "How shells are taken: full (default), cosine, hg, interpolated or diffusion")->check(CLI::IsMember(stf_form_names));
     command->add_option("--explicit-grains", job.explicit_grains, "With auto and ppt: how many grains of a path are traced as they are (default: auto by --accuracy, ppt 0)");
     command->add_option("--grain-pixels", job.grain_pixels, "Grains that look narrower than so many pixels are proxies from the first on (default: 0, auto by --accuracy)")->check(CLI::NonNegativeNumber);

@@ -222,7 +222,7 @@ void run_row(Scene& scene, const std::vector<StfForm>& forms, StfCache& cache, d
         std::vector<PartReport> parts;
         std::vector<std::string> remarks;
         scene.world.regions[0].shells = nullptr;
-        add_shells(form, 1, cache, scene.world, parts, remarks, Progress());
+        add_shells({form}, cache, scene.world, parts, remarks, Progress());
         for (const PartReport& part : parts) fmt::print("  {}: {}; {:.2f} s, {:.1f} MB\n", stf_form_names[static_cast<size_t>(form)], part.reason, part.seconds, 1e-6 * static_cast<double>(part.bytes));
         pictures.emplace_back(stf_form_names[static_cast<size_t>(form)], scene.world.regions[0].shells, 2 + static_cast<uint64_t>(form), scene.pixels.size());
     }

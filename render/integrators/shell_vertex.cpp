@@ -37,11 +37,9 @@ std::optional<bool> Path::step_through_shell(Hit& met)
     if (shells->form() == StfForm::diffusion) return diffuse_through(shell, met);
     const bool is_full = shells->form() == StfForm::full;
     const bool samples_lights = world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only;
-    // What reaches the shell from outside of the clear ball at all. Elsewhere in it a grid may be thinner: then this is a guess, and must not be
-    // so low that the light it lets through counts for much.
-    constexpr double least_reached = 0.1;
-    const double guess = std::isfinite(clear) ? std::exp(-shell.sigma_t * (clear - shell.length)) : 0;
-    const double reached = region.homogeneous ? guess : std::max(least_reached, guess);
+    // What reaches the shell from outside of the clear ball at all.
+    const double beyond = clear - shell.length, guess = std::isfinite(clear) ? std::exp(-shell.sigma_t * beyond) : 0;
+    const double reached = region.homogeneous ? guess : light_reaching(beyond, shell.sigma_t);
     const bool lit = samples_lights && (reached >= 1 || sampler_.next() < reached);
     const double scale = shell.length / shell.radius; // of a mean free path
     if (lit) {

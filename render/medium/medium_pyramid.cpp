@@ -10,6 +10,8 @@ namespace {
 
 constexpr double most_cells = 1 << 20;   ///< of the first level
 constexpr double finest_samples = 0.75;  ///< apart, in voxels: what a voxel holds is seen wherever cubes begin
+constexpr double rounded = 1e-6;         ///< what sums in single precision are off by; of what has no unit
+constexpr double slack = 4 * rounded;    ///< likewise, where no ball is to be left out that is_same()
 
 } // namespace
 
@@ -57,7 +59,7 @@ MediumPyramid::Cell MediumPyramid::cell_at(const GridMedium& medium, const V3d& 
     return cell;
 }
 
-MediumPyramid::MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, double tolerance, double thin, const Progress& progress) : tolerance_(tolerance)
+MediumPyramid::MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, double tolerance, double thin, const Progress& progress) : tolerance_(tolerance), most_off_(tolerance + slack)
 {
     const V3d extent = box.size();
     if (box.isEmpty() || !(extent.x > 0 && extent.y > 0 && extent.z > 0)) return;
@@ -66,6 +68,7 @@ MediumPyramid::MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, 
     const int samples = std::clamp(static_cast<int>(std::ceil(width_ / (finest_samples * medium.voxel()))), 2, 64);
     const Real share = 1 / static_cast<Real>(samples);
     Level first;
+    first.width = width_;
     for (int k = 0; k < 3; ++k) first.size[static_cast<size_t>(k)] = static_cast<int64_t>(std::ceil(extent[k] / width_));
     first.cells.resize(static_cast<size_t>(first.size[0] * first.size[1] * first.size[2]));
     tbb::parallel_for(int64_t{0}, first.size[0], [&](int64_t x) {
@@ -99,6 +102,7 @@ MediumPyramid::MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, 
             if (cell.sigma_t * width < thin) cell.forget_squares();
         add_level();
     }
+    fill_promising();
     // No mean is above the largest sigma_t and albedo of all cubes. The rest is asked of somewhat larger ones: single grains are no medium.
     for (const Cell& cell : levels_[0].cells) {
         if (!(cell.sigma_t > 0)) continue;
@@ -117,7 +121,7 @@ MediumPyramid::MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, 
 void MediumPyramid::add_level()
 {
     const Level& below = levels_.back();
-    Level above{{(below.size[0] + 1) / 2, (below.size[1] + 1) / 2, (below.size[2] + 1) / 2}, {}};
+    Level above{2 * below.width, {(below.size[0] + 1) / 2, (below.size[1] + 1) / 2, (below.size[2] + 1) / 2}, {}};
     for (int64_t x = 0; x < above.size[0]; ++x) {
         for (int64_t y = 0; y < above.size[1]; ++y) {
             for (int64_t z = 0; z < above.size[2]; ++z) {
@@ -136,17 +140,110 @@ void MediumPyramid::add_level()
     levels_.push_back(std::move(above));
 }
 
-bool MediumPyramid::is_same(const V3d& centre, double radius, MediumMean& mean) const
+void MediumPyramid::fill_promising()
+{
+    std::vector<uint32_t> above;
+    for (size_t number = levels_.size(); number-- > 0; above.swap(promising_)) {
+        const Level& level = levels_[number];
+        promising_.resize(level.cells.size());
+        tbb::parallel_for(int64_t{0}, level.size[0], [&](int64_t x) {
+            for (int64_t y = 0; y < level.size[1]; ++y) {
+                for (int64_t z = 0; z < level.size[2]; ++z) {
+                    uint32_t bits = number + 1 < levels_.size() ? above[levels_[number + 1].index(x / 2, y / 2, z / 2)] : 0;
+                    // Two levels below that of a ball it is known which cubes it meets for certain.
+                    for (size_t of = number > 0 ? number + 2 : 0; of <= number + 2 && of < levels_.size(); ++of) {
+                        if (may_hold(of, number, {x, y, z})) bits |= uint32_t{1} << of;
+                    }
+                    promising_[level.index(x, y, z)] = bits;
+                }
+            }
+        });
+    }
+    promising_.swap(above);
+}
+
+bool MediumPyramid::may_hold(size_t number, size_t finer, const std::array<int64_t, 3>& cube) const
+{
+    const Level& level = levels_[number];
+    // A ball is wider than half a cube, but for the first level, and not wider than one: from the outer quarters of its centre's cube it reaches into the next.
+    std::array<int64_t, 3> own, next;
+    double share = 1; // of the ball, by width, in its centre's cube at least
+    for (size_t k = 0; k < 3; ++k) {
+        own[k] = next[k] = cube[k] >> (number - finer);
+        const int64_t quarter = number - finer == 2 ? cube[k] & 3 : -1;
+        if (quarter == 0 && own[k] > 0) --next[k];
+        if (quarter == 3 && own[k] + 1 < level.size[k]) ++next[k];
+        share *= quarter == 1 || quarter == 2 ? 0.75 : 0.5;
+    }
+    const Cell& middle = level.at(own[0], own[1], own[2]);
+    Cell range;
+    for (const int64_t x : {own[0], next[0]}) {
+        for (const int64_t y : {own[1], next[1]}) {
+            for (const int64_t z : {own[2], next[2]}) range.add(level.at(x, y, z), 1);
+        }
+    }
+    // What is_same() asks of all cubes that a ball meets, and of their mean, can be so only if it is of these.
+    const auto close = [this](double low, double high) { return (high - slack) * (1 - tolerance_) <= (low + slack) * (1 + tolerance_); };
+    const double highest_mean = double{range.sigma_low} / (1 - most_off_);
+    if (!(0.5 * level.width * highest_mean >= 1 - slack)) return false;
+    if (!(may_be_close(range.sigma_low, range.sigma_high) && close(range.loss_low, range.loss_high) && close(range.back_low, range.back_high))) return false;
+    const double most = (0.25 * most_off_ * most_off_ + slack) * highest_mean * highest_mean;
+    return share * middle.variance() <= most && (number > 0 || share * middle.variance() + (1 - share) * least_variance_around(own) <= most);
+}
+
+double MediumPyramid::least_variance_around(const std::array<int64_t, 3>& cube) const
+{
+    const Level& level = levels_[0];
+    const auto each = [&](size_t axis, const auto& visit) {
+        for (int64_t i = std::max<int64_t>(0, cube[axis] - 1); i < std::min(level.size[axis], cube[axis] + 2); ++i) visit(i);
+    };
+    double least = level.at(cube[0], cube[1], cube[2]).variance();
+    each(0, [&](int64_t x) { each(1, [&](int64_t y) { each(2, [&](int64_t z) { least = std::min(least, level.at(x, y, z).variance()); }); }); });
+    return least;
+}
+
+size_t MediumPyramid::level_of(double radius) const
+{
+    size_t number = 0;
+    while (number + 1 < levels_.size() && levels_[number].width < 2 * radius) ++number;
+    return number;
+}
+
+bool MediumPyramid::halve_until_same(const V3d& centre, double& radius, MediumMean& mean) const
+{
+    if (levels_.empty()) return false;
+    std::array<int64_t, 3> cube;
+    double room = width_; // around the place, within its cube of the first level
+    for (int k = 0; k < 3; ++k) {
+        const double at = (centre[k] - origin_[k]) / width_, size = static_cast<double>(levels_[0].size[static_cast<size_t>(k)]);
+        if (!(at >= 0 && at < size)) return false;
+        cube[static_cast<size_t>(k)] = static_cast<int64_t>(at);
+        const double part = at - std::floor(at);
+        room = std::min(room, width_ * std::min(part, 1 - part));
+    }
+    const size_t own = levels_[0].index(cube[0], cube[1], cube[2]);
+    const uint32_t promising = promising_[own];
+    if (promising == 0) return false;
+    double densest = extremes_.sigma_t_high;
+    for (size_t level = level_of(radius); radius * densest >= 1; radius /= 2) {
+        while (level > 0 && levels_[level - 1].width >= 2 * radius) --level;
+        if (level == 0) {
+            if ((promising & 1) == 0) return false;
+            densest = std::min(densest, double{levels_[0].cells[own].sigma_t} / (1 - most_off_)); // of balls that are the same
+            if (!(radius * densest >= 1)) return false;
+        }
+        if ((promising >> level & 1) != 0 && is_same(centre, radius, level, mean)) return true;
+        if (radius < room) return false; // smaller ones are in the same cube
+    }
+    return false;
+}
+
+bool MediumPyramid::is_same(const V3d& centre, double radius, size_t number, MediumMean& mean) const
 {
     if (levels_.empty()) return false;
     // The cubes of the level are as wide as the ball: it meets two of them along an axis at most.
-    size_t number = 0;
-    double width = width_;
-    while (number + 1 < levels_.size() && width < 2 * radius) {
-        width *= 2;
-        ++number;
-    }
     const Level& level = levels_[number];
+    const double width = level.width;
     std::array<int64_t, 3> first, last;
     std::array<std::array<double, 2>, 3> share; // of the ball's width, of the first and of the last cube
     for (int k = 0; k < 3; ++k) {
@@ -160,10 +257,15 @@ bool MediumPyramid::is_same(const V3d& centre, double radius, MediumMean& mean) 
         share[a][0] = 1 - share[a][1];
     }
     Cell ball;
+    Real lowest = std::numeric_limits<Real>::max(), highest = 0;
     for (int64_t x = first[0]; x <= last[0]; ++x) {
         for (int64_t y = first[1]; y <= last[1]; ++y) {
             for (int64_t z = first[2]; z <= last[2]; ++z) {
-                ball.add(level.at(x, y, z), static_cast<Real>(share[0][x > first[0]] * share[1][y > first[1]] * share[2][z > first[2]]));
+                const Cell& cell = level.at(x, y, z);
+                lowest = std::min(lowest, cell.sigma_low);
+                highest = std::max(highest, cell.sigma_high);
+                if (!may_be_close(lowest, highest)) return false; // most that are not the same are found out here
+                ball.add(cell, static_cast<Real>(share[0][x > first[0]] * share[1][y > first[1]] * share[2][z > first[2]]));
             }
         }
     }
@@ -173,7 +275,6 @@ bool MediumPyramid::is_same(const V3d& centre, double radius, MediumMean& mean) 
     for (unsigned c = 0; c < 3; ++c) mean.albedo[c] = std::min<double>(extremes_.albedo_high, 1 - ball.lost[c] / sigma);
     mean.g = ball.forward / brightest;
     const double loss = ball.least_lost() / sigma, back = 1 - mean.g;
-    constexpr double rounded = 1e-6; // what sums in single precision are off by; all have no unit
     const auto close = [&](double low, double high, double square, double value) {
         const double most = value * tolerance_ + rounded;
         return low >= value - most && high <= value + most && square - value * value <= 0.25 * most * most + rounded * value * value;
@@ -184,7 +285,7 @@ bool MediumPyramid::is_same(const V3d& centre, double radius, MediumMean& mean) 
 
 uint64_t MediumPyramid::bytes() const
 {
-    uint64_t sum = 0;
+    uint64_t sum = promising_.size() * sizeof(uint32_t);
     for (const Level& level : levels_) sum += level.cells.size() * sizeof(Cell);
     return sum;
 }

@@ -67,7 +67,8 @@ void PlannedShells::say(const TypeRequest& request, const MediumBuilder& media, 
     if (const double largest = largest_shell(world); all_read && largest < least) {
         return skip("shells", fmt::format("none can have more than {:.3g} mean free paths, of use are {:g} and more", largest, least));
     }
-    request.parts.push_back({"shells", true, fmt::format("to be made, where one of {:g} mean free paths fits in a medium", least)});
+    const bool has_grids = media.count() > world.regions.size();
+    request.parts.push_back({"shells", true, fmt::format("to be made, where one of {:g} mean free paths fits in a medium{}", least, plan.shells_must_pay && has_grids ? " and, in grids, where they save work" : "")});
 }
 
 void PlannedShells::make(const TypeRequest& request, const MediumBuilder& media, World& world)
@@ -83,7 +84,7 @@ void PlannedShells::make(const TypeRequest& request, const MediumBuilder& media,
     if (world.regions.empty()) return skip("shells", none);
     if (!plan.has_shells) return skip("shells", stepwise);
     if (!cache_) cache_ = std::make_unique<StfCache>(cache_folder(), stf_options(plan.accuracy));
-    add_shells(plan.stf_form, plan.least_shell, *cache_, world, request.parts, request.warnings, request.progress);
+    add_shells({plan.stf_form, plan.least_shell, plan.shells_must_pay}, *cache_, world, request.parts, request.warnings, request.progress);
 }
 
 } // namespace scree

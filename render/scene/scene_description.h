@@ -115,7 +115,7 @@ struct IntegratorDescription {
 
     std::optional<bool> shells;        ///< whether light goes through shells in media; absent: with stf and auto
     StfForm stf_form = StfForm::full;
-    std::optional<double> least_shell; ///< mean free paths that the largest shell of a medium has at least, else it gets none; absent: auto 8, else 1
+    std::optional<double> least_shell; ///< mean free paths that the largest shell of a medium has at least, else it gets none; absent: 1, auto 8 and, in grids, where shells save work
 };
 
 /// A scene file, read and checked, with paths made absolute; nothing it names has been opened yet.

@@ -2,6 +2,7 @@
 
 #include "ingest/triangle_mesh.h"
 #include "render/stf/medium_shells.h"
+#include "render/stf/shell_forecast.h"
 
 #include <fmt/format.h>
 
@@ -15,6 +16,7 @@ constexpr double tolerance = 0.05;      ///< within which a medium of grids coun
 constexpr double grain_tolerance = 0.1; ///< likewise where grains are, of which parts of a shell differ by chance
 constexpr double thin = 0.5;            ///< mean free paths over which what varies averages out
 constexpr double thin_grains = 16;      ///< likewise where grains are: cubes that hold hundreds of them differ by chance, which the medium is measured with
+constexpr double worthwhile_work = 0.95; ///< with shells, of that without: their tables are to be made as well
 constexpr double g_step = 1.3;          ///< of 1 - g, where it varies: the same for all scenes, so that they share tables
 
 /// How many shells there is use for. inside: no shell in there is larger.
@@ -81,7 +83,7 @@ std::shared_ptr<const ClearanceField> make_clearance(const World& world, const P
     return std::make_shared<ClearanceField>(meshes, box, progress);
 }
 
-void add_shells(StfForm form, double least, StfCache& cache, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
+void add_shells(const ShellChoice& choice, StfCache& cache, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
 {
     for (MediumRegion& region : world.regions) {
         const std::string part = "shells of '" + region.name + "'";
@@ -111,14 +113,25 @@ void add_shells(StfForm form, double least, StfCache& cache, World& world, std::
             g_high = extremes.g_high;
         }
         const size_t count = useful_shells(sigma_t, albedo, g_low, std::min(0.5 * std::min({box.size().x, box.size().y, box.size().z}), world.clearance->largest()));
-        if (count == 0 || Stf::radius(count - 1) < least) {
-            skip(count == 0 ? "none fits: no place is a mean free path away from all faces" : fmt::format("the largest has {:.3g} mean free paths, of use are {:g} and more", Stf::radius(count - 1), least));
+        if (count == 0 || Stf::radius(count - 1) < choice.least) {
+            skip(count == 0 ? "none fits: no place is a mean free path away from all faces" : fmt::format("the largest has {:.3g} mean free paths, of use are {:g} and more", Stf::radius(count - 1), choice.least));
             continue;
+        }
+        std::string forecast;
+        if (choice.must_pay && pyramid && !region.instead_of_grains) {
+            const ShellForecast walks = forecast_shells(*region.grid, *pyramid, box, *world.clearance, count, progress);
+            const double work = walks.work(world.lights.any_sampled());
+            forecast = fmt::format("in place of {:.0f} % of the scatterings, {:.2g} each, for {:.0f} % of the work", 100 * walks.part(), walks.each(), 100 * work);
+            if (!(work <= worthwhile_work)) {
+                parts.push_back({part, false, fmt::format("they would stand {}, of use are {:.0f} % and less", forecast, 100 * worthwhile_work), watch.seconds()});
+                continue;
+            }
+            forecast = "; " + forecast;
         }
         std::vector<std::shared_ptr<const Stf>> stfs;
         size_t computed = 0;
         const auto add_stf = [&](double g, const std::shared_ptr<const PhaseTable>& table) {
-            if (form == StfForm::diffusion) {
+            if (choice.form == StfForm::diffusion) {
                 stfs.push_back(std::make_shared<Stf>(g));
                 return;
             }
@@ -128,13 +141,13 @@ void add_shells(StfForm form, double least, StfCache& cache, World& world, std::
             computed += found.computed;
         };
         if (region.homogeneous) {
-            add_stf(g_low, form >= StfForm::hg ? nullptr : region.homogeneous->phase_table());
-            region.shells = std::make_shared<MediumShells>(stfs[0], *region.homogeneous, count, form);
+            add_stf(g_low, choice.form >= StfForm::hg ? nullptr : region.homogeneous->phase_table());
+            region.shells = std::make_shared<MediumShells>(stfs[0], *region.homogeneous, count, choice.form);
         } else {
             for (const double g : g_axis(g_low, g_high)) add_stf(g, nullptr);
-            region.shells = std::make_shared<MediumShells>(stfs, std::move(pyramid), count, form);
+            region.shells = std::make_shared<MediumShells>(stfs, std::move(pyramid), count, choice.form);
         }
-        parts.push_back({part, true, fmt::format("{} of up to {:.4g} mean free paths for {} values of g, {} made now", count, Stf::radius(count - 1), stfs.size(), computed),
+        parts.push_back({part, true, fmt::format("{} of up to {:.4g} mean free paths for {} values of g, {} made now{}", count, Stf::radius(count - 1), stfs.size(), computed, forecast),
                          watch.seconds(), region.shells->bytes()});
     }
 }

@@ -18,9 +18,16 @@ StfOptions stf_options(Accuracy accuracy);
 /// Distances within the media of a world from all that a ray may meet there, or null where nothing is known: no media, or grains among them.
 std::shared_ptr<const ClearanceField> make_clearance(const World& world, const Progress& progress);
 
-/// Gives the media of a world the shells that light may go through in them, after make_clearance(): of each no more than fit and pay.
+/// Which shells media get.
+struct ShellChoice {
+    StfForm form = StfForm::full;
+    double least = 1;      ///< radius of the largest shell, in mean free paths, below which a medium gets none
+    bool must_pay = false; ///< a medium of grids gets none where walks in it do not show that they save work
+};
+
+/// Gives the media of a world the shells that light may go through in them, after make_clearance(): of each no more than fit.
 ///
-/// least: radius of the largest shell, in mean free paths, below which a medium gets none. Reports what was built, or why nothing was. Throws Cancelled.
-void add_shells(StfForm form, double least, StfCache& cache, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress);
+/// Reports what was built, or why nothing was. Throws Cancelled.
+void add_shells(const ShellChoice& choice, StfCache& cache, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress);
 
 } // namespace scree

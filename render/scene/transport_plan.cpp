@@ -99,6 +99,7 @@ uint64_t hash_plan(const TransportPlan& plan)
     if (plan.has_shells) {
         add(static_cast<uint64_t>(plan.stf_form));
         add_number(plan.least_shell);
+        add(plan.shells_must_pay);
     }
     return hash;
 }
@@ -175,6 +176,7 @@ TransportPlan plan_transport(const IntegratorDescription& integrator, const Came
     }
     plan.has_shells = integrator.shells.value_or(integrator.kind == IntegratorKind::stf || (integrator.kind == IntegratorKind::automatic && integrator.accuracy != Accuracy::reference));
     if (integrator.kind == IntegratorKind::automatic && !integrator.shells) plan.least_shell = worthwhile_shell;
+    plan.shells_must_pay = integrator.kind == IntegratorKind::automatic && !integrator.shells && !integrator.least_shell;
     plan.least_shell = integrator.least_shell.value_or(plan.least_shell);
     if (!plan.has_grains) plan.why = plan.why_no_medium = "the scene has no grains";
     if (plan.has_grain_medium) plan.why_no_medium.clear();

@@ -38,6 +38,7 @@ struct TransportPlan {
     bool has_shells = false;               ///< light goes through shells in media
     StfForm stf_form = StfForm::full;
     double least_shell = 1;                ///< mean free paths: of the largest in a medium, else it gets none
+    bool shells_must_pay = false;          ///< a medium of grids gets none where walks in it do not show that they save work
     std::string why;                       ///< why grains are taken in this way
     std::string why_no_medium;             ///< empty where a medium stands for grains
 

@@ -20,6 +20,16 @@ std::vector<double> sampled_albedos(double low, double high)
 
 } // namespace
 
+bool fit_ball(const MediumPyramid& medium, const V3d& place, double clear, size_t count, SameBall& ball)
+{
+    ball.length = std::min(clear, 2 * Stf::radius(count - 1) / medium.extremes().sigma_t_high);
+    if (!medium.halve_until_same(place, ball.length, ball.mean)) return false;
+    const int number = Stf::largest(ball.length * ball.mean.sigma_t, count);
+    if (number < 0) return false;
+    ball.number = static_cast<size_t>(number);
+    return true;
+}
+
 MediumShells::MediumShells(std::shared_ptr<const Stf> stf, const HomogeneousMedium& medium, size_t count, StfForm form)
     : form_(form), stfs_{std::move(stf)}
 {
@@ -90,17 +100,10 @@ bool MediumShells::fit_in_grid(const V3d& place, double clear, double u, Fitting
 {
     const bool diffuses = form_ == StfForm::diffusion;
     const size_t count = diffuses ? 1 << 10 : samplers_[0].size();
-    const double densest = grid_->extremes().sigma_t_high;
-    // Balls from the largest on, each half as large as the one before.
-    double length = std::min(clear, 2 * Stf::radius(count - 1) / densest);
-    MediumMean mean;
-    while (!grid_->is_same(place, length, mean)) {
-        length /= 2;
-        if (!(length * densest >= Stf::radius(0))) return false;
-    }
-    const int number = Stf::largest(length * mean.sigma_t, count);
-    if (number < 0) return false;
-    const double sigma_t = mean.sigma_t, g = mean.g, radius = length * sigma_t;
+    SameBall ball;
+    if (!fit_ball(*grid_, place, clear, count, ball)) return false;
+    const MediumMean& mean = ball.mean;
+    const double sigma_t = mean.sigma_t, g = mean.g, radius = ball.length * sigma_t;
     fitting.sigma_t = sigma_t;
     fitting.albedo = mean.albedo;
     if (diffuses) {
@@ -119,9 +122,9 @@ bool MediumShells::fit_in_grid(const V3d& place, double clear, double u, Fitting
         size_t albedo = static_cast<size_t>(std::ranges::lower_bound(albedos_, brightest) - albedos_.begin());
         albedo = std::min(albedo, albedos_.size() - 1);
         fitting.sampled_albedo = albedos_[albedo];
-        choose(samplers_[of * albedos_.size() + albedo], static_cast<size_t>(number), radius, u, fitting);
+        choose(samplers_[of * albedos_.size() + albedo], ball.number, radius, u, fitting);
     }
-    fitting.length = std::min(length, fitting.radius / sigma_t);
+    fitting.length = std::min(ball.length, fitting.radius / sigma_t);
     return true;
 }
 

@@ -30,6 +30,24 @@ struct FittingShell {
     }
 };
 
+/// A ball in which a medium of grids is the same, and the shell that fits in it.
+struct SameBall {
+    double length = 0; ///< radius
+    MediumMean mean;
+    size_t number = 0; ///< of the largest shell that is not larger
+
+    /// Of that shell.
+    double radius() const { return std::min(length, Stf::radius(number) / mean.sigma_t); }
+};
+
+/// Finds a ball around a place, where nothing but the medium is within `clear`; false: none has room for a shell. count: of shells there are.
+bool fit_ball(const MediumPyramid& medium, const V3d& place, double clear, size_t count, SameBall& ball);
+
+/// What light reaches a shell in a medium of grids from outside of a clear ball, `beyond` larger than it: how often light is to be looked for.
+///
+/// The grid may be thinner there: then this is a guess, and must not be so low that the light it lets through counts for much.
+inline double light_reaching(double beyond, double sigma_t) { return std::max(0.1, std::exp(-sigma_t * beyond)); }
+
 /// The shells that light may go through in a medium, which is achromatic; safe to use from many threads.
 class MediumShells {
 public:

@@ -127,7 +127,7 @@ void prepare_media(World& world, std::optional<StfForm> shells)
     static StfCache cache{{}}; // of all tests of a program
     std::vector<PartReport> parts;
     std::vector<std::string> remarks;
-    add_shells(*shells, 1, cache, world, parts, remarks, Progress());
+    add_shells({*shells}, cache, world, parts, remarks, Progress());
 }
 
 Material lambert(float reflectance)

@@ -68,6 +68,8 @@ std::map<std::string, std::string> plan_scenes()
         {"slab and bed", grains(bright, lattice(9, 9, 9)) + ", " + slab("5")},
         {"slab around a light", R"("lights": [{"kind": "sphere", "center": [0, 0, -0.5], "radius": 0.1, "radiance": 1}], )" + slab("5")},
         {"cloud", sky + R"("medium": [{"vdb": "cloud.vdb", "scale": 5, "albedo": 0.9}])"},
+        {"dense cloud", sky + R"("medium": [{"vdb": "cloud.vdb", "scale": 20, "albedo": 0.9995, "g": 0.9}])"},
+        {"denser cloud", sky + R"("medium": [{"vdb": "cloud.vdb", "scale": 200, "albedo": 0.9995, "g": 0.9}])"},
         {"empty cloud", sky + R"("medium": [{"vdb": "empty.vdb"}])"},
         {"lamp", R"("lights": [{"kind": "rectangle", "corner": [0, 0, 9], "edges": [[1, 0, 0], [0, 1, 0]], "radiance": 10}])"},
         {"sky map", R"("lights": [{"kind": "environment", "file": "sky.exr"}])"},
@@ -199,6 +201,7 @@ std::vector<PlanRow> plan_rows()
     planned("empty", "empty cloud", {}, distances, false, "there is no medium");
     planned("to come", "slab", {}, distances, true, "to be found");
     planned("to come", "cloud", {}, "shells", true, "to be made, where one of 8 mean free paths fits in a medium");
+    planned("to come", "cloud", {}, "shells", true, "fits in a medium and, in grids, where they save work");
     planned("to come", "slab", stf, "shells", true, "to be made, where one of 1 mean free paths fits in a medium");
     planned("to come", "slab", {"--least-shell", "2"}, "shells", true, "to be made, where one of 2 mean free paths fits in a medium");
     planned("to come", "bed", stf, "shells", true, "to be made");
@@ -223,6 +226,9 @@ std::vector<PlanRow> plan_rows()
     traced("around a light", "slab around a light", draft, "shells of 'slab.obj'", false, "grains, or a spherical light, may be met in it");
     traced("cloud", "cloud", with(draft, diffusion), "medium 'cloud.vdb'", true, "from grids");
     traced("cloud", "cloud", with(with(draft, shells), diffusion), "shells of 'cloud.vdb'", true, "for 1 values of g");
+    traced("save nothing", "dense cloud", with(draft, diffusion), "shells of 'cloud.vdb'", false, "of the work, of use are 95 % and less");
+    traced("save work", "denser cloud", with(draft, diffusion), "shells of 'cloud.vdb'", true, "each, for ");
+    for (const Arguments& asked : {Arguments{"--least-shell", "8"}, shells}) traced("asked for", "dense cloud", with(with(draft, asked), diffusion), "shells of 'cloud.vdb'", true, "0 made now");
     traced("of grains", "bed", with(with(stf, diffusion), formula), "shells of 'medium of the grains'", true, "values of g");
     traced("empty", "empty cloud", draft, "shells", false, "there is no medium");
     return rows;

@@ -235,9 +235,15 @@ TEST_F(Plans, TheUserHasTheLastWord)
     integrator = {};
 
     EXPECT_EQ(automatic().least_shell, 8);
+    EXPECT_TRUE(automatic().shells_must_pay);
     EXPECT_EQ(plan(IntegratorKind::stf).least_shell, 1);
+    EXPECT_FALSE(plan(IntegratorKind::stf).shells_must_pay);
     integrator.shells = true;
     EXPECT_EQ(automatic().least_shell, 1);
+    EXPECT_FALSE(automatic().shells_must_pay) << "the user's word";
+    integrator = {};
+    integrator.least_shell = 8;
+    EXPECT_FALSE(automatic().shells_must_pay) << "the user's word";
     integrator.least_shell = 3;
     for (const IntegratorKind kind : kinds) EXPECT_EQ(plan(kind).least_shell, 3);
     integrator = {};
@@ -298,6 +304,7 @@ TEST_F(Plans, EverySwitchTellsEstimatorsApart)
     with([](TransportPlan& p) { p.has_shells = false; });
     with([](TransportPlan& p) { p.stf_form = StfForm::diffusion; });
     with([](TransportPlan& p) { p.least_shell = 1; });
+    with([](TransportPlan& p) { p.shells_must_pay = false; });
     EXPECT_EQ(std::set<uint64_t>(hashes.begin(), hashes.end()).size(), hashes.size());
 }
 

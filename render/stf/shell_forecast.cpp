@@ -1,0 +1,124 @@
+#include "render/stf/shell_forecast.h"
+
+#include "ingest/support/error.h"
+#include "render/sampler.h"
+#include "render/stf/medium_shells.h"
+#include "render/warp.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+namespace scree {
+
+namespace {
+
+constexpr uint32_t walks = 64, most_walks = 1 << 14; ///< at a time and in all: some meet next to nothing
+constexpr uint64_t enough = 1 << 16;                   ///< scatterings of all walks
+constexpr uint32_t most_scatterings = 2048;            ///< of a walk: the longest are cut short, which takes from what shells seem to save
+
+// In scatterings that look for no light. With these work() is within 15 % (root mean square) of what shells made of the time of 27 renderings: a cloud, and
+// balls of constant, growing, waving and soft density, 20 to 600 mean free paths through, under a sun and under a white sky. The variance of a path stays.
+constexpr double query_cost = 0.2, shell_cost = 4, light_cost = 1; ///< of light: of looking for it once
+
+struct Ray {
+    V3d o, d;
+};
+
+/// Into a box from its faces, as of diffuse light.
+Ray enter(const Imath::Box3d& box, Sampler& sampler)
+{
+    const V3d size = box.size(), areas(size.y * size.z, size.z * size.x, size.x * size.y);
+    double u = 2 * sampler.next() * (areas.x + areas.y + areas.z);
+    int axis = 0;
+    while (axis < 2 && u >= 2 * areas[axis]) u -= 2 * areas[axis++];
+    const bool upper = u >= areas[axis];
+    const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+    Ray ray;
+    ray.o[axis] = upper ? box.max[axis] : box.min[axis];
+    ray.o[next] = box.min[next] + sampler.next() * size[next];
+    ray.o[last] = box.min[last] + sampler.next() * size[last];
+    const double v = sampler.next(), w = sampler.next();
+    const V3d local = sample_cosine_hemisphere(v, w);
+    ray.d[axis] = upper ? -local.z : local.z;
+    ray.d[next] = local.x;
+    ray.d[last] = local.y;
+    return ray;
+}
+
+/// How far it is from within a box to its faces.
+double way_out(const Imath::Box3d& box, const Ray& ray)
+{
+    double t = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) {
+        if (ray.d[k] != 0) t = std::min(t, ((ray.d[k] > 0 ? box.max[k] : box.min[k]) - ray.o[k]) / ray.d[k]);
+    }
+    return std::max(0.0, t);
+}
+
+} // namespace
+
+double ShellForecast::work(bool lights) const
+{
+    const double light = lights ? light_cost : 0, all = static_cast<double>(scatterings) * (1 + light);
+    if (scatterings == 0) return 1;
+    return 1 + (query_cost * static_cast<double>(queries) + shell_cost * static_cast<double>(shells) + light * static_cast<double>(lit) - (1 + light) * static_cast<double>(skipped)) / all;
+}
+
+ShellForecast forecast_shells(const GridMedium& medium, const MediumPyramid& pyramid, const Imath::Box3d& box, const ClearanceField& clearance, size_t count, const Progress& progress)
+{
+    const double least = 1 / pyramid.extremes().sigma_t_high;
+    const auto walk = [&](uint32_t number, ShellForecast& sum) {
+        Sampler sampler(0, number, 0, 0);
+        SpectralState state;
+        Ray ray = enter(box, sampler);
+        V3d centre(0);
+        double radius = 0; // of the shell that the way is in, if in one
+        for (uint32_t events = 0; events < most_scatterings;) {
+            const double out = way_out(box, ray);
+            double end = out;
+            if (radius > 0) {
+                const V3d from = ray.o - centre;
+                const double along = from.dot(ray.d);
+                end = std::min(out, std::max(0.0, -along + std::sqrt(std::max(0.0, along * along + radius * radius - from.length2()))));
+            }
+            const MediumEvent event = medium.event(ray.o, ray.d, 0, end, state, sampler);
+            if (!event.scattered && (radius == 0 || end == out)) return;
+            ray.o += (event.scattered ? event.t : end) * ray.d;
+            if (event.scattered) {
+                ++events;
+                ++sum.scatterings;
+                if (radius > 0) ++sum.skipped;
+                if (!(sampler.next() < max_component(event.albedo))) return;
+                const double u = sampler.next(), phi = 2 * pi * sampler.next();
+                const double cosine = event.phase.sample(u), sine = safe_sqrt(1 - cosine * cosine);
+                ray.d = Frame(ray.d).to_world({sine * std::cos(phi), sine * std::sin(phi), cosine}).normalized();
+                if (radius > 0) continue;
+            }
+            SameBall same;
+            ++sum.queries;
+            const double clear = clearance.rough_clearance(ray.o, least);
+            radius = fit_ball(pyramid, ray.o, clear, count, same) ? same.radius() : 0;
+            centre = ray.o;
+            if (radius == 0) continue;
+            ++sum.shells;
+            if (sampler.next() < -std::expm1(-radius * same.mean.sigma_t) * light_reaching(clear - radius, same.mean.sigma_t)) ++sum.lit;
+        }
+    };
+    const auto add = [](const ShellForecast& a, const ShellForecast& b) {
+        return ShellForecast{a.scatterings + b.scatterings, a.queries + b.queries, a.shells + b.shells, a.skipped + b.skipped, a.lit + b.lit};
+    };
+    ShellForecast sum;
+    for (uint32_t first = 0; first < most_walks && sum.scatterings < enough; first += walks) {
+        sum = add(sum, tbb::parallel_reduce(
+            tbb::blocked_range<uint32_t>(first, first + walks), ShellForecast{},
+            [&](const tbb::blocked_range<uint32_t>& range, ShellForecast part) {
+                for (uint32_t number = range.begin(); number != range.end() && !progress.cancelled(); ++number) walk(number, part);
+                return part;
+            },
+            add));
+        if (progress.cancelled()) throw Cancelled();
+    }
+    return sum;
+}
+
+} // namespace scree
