@@ -19,7 +19,7 @@ namespace scree {
 /// The halves count alike: weights by their counts would weigh each by what itself has seen. Biased if done in one: Kirk and Arvo 1991.
 ///
 /// The mean error over the picture is reached with the least work when a tile gets samples by the root of its variance over
-/// what one of them costs (Neyman 1934); but no tile is left above twice the error. Costs are steps of paths, not seconds: the same
+/// what one of them costs (Neyman 1934); but no tile is left above twice the error. Costs are rays, not seconds: the same
 /// seed draws the same samples on every machine.
 class AdaptivePlan {
 public:

@@ -102,10 +102,11 @@ private:
         bool first = least_drawn() == 0, complete = true;
         while (complete && !plan.finished()) {
             std::vector<int> going;
+            bool limited = false;
             for (size_t i = 0; i < states.tiles.size(); ++i) {
                 const std::array<uint32_t, 2> asked = plan.asked(i);
                 if (std::max(asked[0], asked[1]) > states.done) going.push_back(static_cast<int>(i));
-                exhausted_ = exhausted_ || std::max(asked[0], asked[1]) > most;
+                limited = limited || std::max(asked[0], asked[1]) > most;
             }
             const double before = plan.progress();
             const auto run = [&](int tile, const auto& stop, RenderStatistics& part) {
@@ -115,7 +116,9 @@ private:
             };
             complete = run_wave(going, first, [&](double wave_done) { return before + wave_done * 0.2 * (1 - before); }, run);
             first = false;
-            if (!complete || exhausted_) break; // nothing is decided where the limit stopped it: more may come
+            if (!complete) break;
+            exhausted_ = limited;
+            if (limited) break; // nothing is decided where the limit stopped it: more may come
             estimate_tiles(film_, plan);
             plan.decide();
             if (progress_.cancelled() || out_of_time()) break;

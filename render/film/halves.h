@@ -12,7 +12,7 @@ namespace scree {
 
 inline constexpr uint32_t undecided = std::numeric_limits<uint32_t>::max();
 
-/// How many samples of each half count in the pixels of a tile, drawn yet or not; `undecided` while that may be any number.
+/// How many samples of each half count in the pixels of a tile, which may be more than are drawn yet; `undecided` until the other half has said.
 ///
 /// Half 0 has the samples of even number, half 1 those of odd number. counts[0] is decided by half 1 alone and the other way
 /// round, so that a half's mean is unbiased whatever was drawn.
@@ -70,13 +70,14 @@ struct TileEstimate {
 /// A tile: what counts of its halves and what these said last. estimates[h] is of half h, which decides on the other one.
 struct TileState {
     HalfCounts counts;
-    std::array<uint64_t, 2> work{0, 0}; ///< of all samples of each half, counted or not: steps of their paths
+    std::array<uint64_t, 2> work{0, 0}; ///< of all samples of each half, counted or not: rays, and what takes as long
     std::array<TileEstimate, 2> estimates;
 };
 
-/// How far a picture has come: its tiles, and the samples of each half that there are, and are next, wherever they are asked for.
+/// How far a picture has come. Samples are those of a half, wherever they are asked for.
 struct TileStates {
-    uint32_t done = 0, level = 1;
+    uint32_t done = 0;  ///< that there are
+    uint32_t level = 1; ///< that there are to be next
     std::vector<TileState> tiles;
 };
 

@@ -170,12 +170,10 @@ bool Path::handle_medium(const MediumEvent& event, Hit& met)
         if (reached >= 1 || sampler_.next() < reached) add_phase_light(o_, d_, event.phase, Color(static_cast<Real>(1 / reached)));
     }
 
-    const double u = sampler_.next(), phi = 2 * pi * sampler_.next();
-    const double cosine = event.phase.sample(u), sine = safe_sqrt(1 - cosine * cosine);
-    const V3d w = Frame(d_).to_world({sine * std::cos(phi), sine * std::sin(phi), cosine});
+    const double u = sampler_.next(), v = sampler_.next(), cosine = event.phase.sample(u);
     last_ = {false, event.phase.pdf(cosine), o_};
     const double here = clear_;
-    start_ray(o_, w.normalized(), {});
+    start_ray(o_, turned(d_, cosine, v), {});
     clear_ = here;
     return true;
 }

@@ -38,8 +38,7 @@ std::optional<bool> Path::step_through_shell(Hit& met)
     const bool is_full = shells->form() == StfForm::full;
     const bool samples_lights = world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only;
     // What reaches the shell from outside of the clear ball at all.
-    const double beyond = clear - shell.length, guess = std::isfinite(clear) ? std::exp(-shell.sigma_t * beyond) : 0;
-    const double reached = region.homogeneous ? guess : light_reaching(beyond, shell.sigma_t);
+    const double beyond = clear - shell.length, reached = region.homogeneous ? std::exp(-shell.sigma_t * beyond) : light_reaching(beyond, shell.sigma_t);
     const bool lit = samples_lights && (reached >= 1 || sampler_.next() < reached);
     const double scale = shell.length / shell.radius; // of a mean free path
     if (lit) {

@@ -2,6 +2,7 @@
 
 #include "ingest/support/error.h"
 #include "render/medium/hull_inset.h"
+#include "render/medium/level_set_surface.h"
 #include "render/medium/sphere_bins.h"
 #include "render/medium/surface_shells.h"
 
@@ -57,13 +58,9 @@ std::optional<RegionSurface> core_of_spheres(std::span<const GrainStore::Sphere>
     if (!(radius > 0)) return std::nullopt;
     const double closing = options.closing * radius;
     const VoxelLattice lattice{V3d(0), options.voxel * radius};
-    const GrainHull dilated = dilated_spheres(spheres, closing, lattice, progress);
-    if (dilated.surface.triangles.empty()) return std::nullopt;
     // The deeper, the smoother: finer voxels would tell no more.
-    const double wanted = std::max(lattice.voxel, (closing + depth) / voxels_deep), voxel = affordable_voxel(dilated.surface, closing + depth, wanted);
-    auto core = inset_of_hull(dilated, closing + depth, {lattice.origin, voxel}, progress);
-    if (core) core->coarsened = voxel > wanted;
-    return core;
+    const double voxel = std::max(lattice.voxel, (closing + depth) / voxels_deep);
+    return inset_of_hull(dilated_spheres(spheres, closing, lattice, progress), closing + depth, {lattice.origin, voxel}, progress);
 }
 
 } // namespace scree

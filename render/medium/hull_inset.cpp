@@ -6,8 +6,12 @@
 #include <Imath/ImathBox.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <memory>
 #include <set>
+#include <vector>
 
 namespace scree {
 
@@ -67,9 +71,10 @@ public:
             for (int j = 0; j < dim; ++j)
                 for (int k = 0; k < dim;) {
                     const V3d place = first + V3d(i, j, k);
-                    const double deep = distance(place), missing = is_inside(field, place) ? level_ - deep : beyond;
-                    // As far as all of the row is beyond what is to be known.
-                    int same = 1 + static_cast<int>(std::max(0.0, (missing < 0 ? -missing : level_ - deep) - beyond));
+                    const bool inside = is_inside(field, place);
+                    const double deep = distance(place), missing = inside ? level_ - deep : beyond;
+                    // As far as all of the row is beyond what is to be known, or outside as well.
+                    int same = 1 + static_cast<int>(std::max(inside ? 0.0 : deep, std::abs(level_ - deep) - beyond));
                     for (; same > 0 && k < dim; --same, ++k) {
                         const auto offset = static_cast<openvdb::Index>((i * dim + j) * dim + k);
                         if (std::abs(missing) < beyond) leaf.setValueOn(offset, static_cast<float>(missing));
@@ -100,15 +105,18 @@ private:
 
 std::optional<RegionSurface> inset_of_hull(const GrainHull& hull, double depth, const VoxelLattice& lattice, const Progress& progress)
 {
+    if (hull.surface.triangles.empty()) return std::nullopt;
     const Depth field(hull, depth / lattice.voxel, lattice, progress);
     const std::vector<openvdb::Coord> candidates = field.candidates();
     std::vector<std::unique_ptr<Leaf>> leaves(candidates.size());
     std::vector<Depth::Kind> kinds(candidates.size());
+    std::atomic<size_t> done{0};
     tbb::parallel_for(size_t{0}, leaves.size(), [&](size_t i) {
         if (progress.cancelled()) return;
         leaves[i] = std::make_unique<Leaf>(candidates[i] << Leaf::LOG2DIM, beyond, false);
         kinds[i] = field.fill(*leaves[i]);
         if (kinds[i] != Depth::Kind::mixed) leaves[i].reset();
+        if (const size_t n = ++done; n % 64 == 0) progress.update("core of the heap", static_cast<double>(n) / static_cast<double>(leaves.size()));
     });
     if (progress.cancelled()) throw Cancelled();
     const auto grid = openvdb::FloatGrid::create(beyond);

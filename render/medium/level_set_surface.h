@@ -18,7 +18,7 @@ struct VoxelLattice {
 /// The surface where a field passes `level`, around what is below it; the grid is of the class GRID_LEVEL_SET. For sources that use OpenVDB.
 RegionSurface level_surface(const openvdb::FloatGrid& grid, double level, const VoxelLattice& lattice);
 
-/// All points deeper than `depth` below a closed surface (may have shells that face inwards), found in voxels of one size; Throws Cancelled.
+/// All points deeper than `depth` below a closed surface (may have shells that face inwards), found in voxels of one size. Throws Cancelled.
 std::optional<RegionSurface> inset_on_lattice(const RegionSurface& surface, double depth, const VoxelLattice& lattice, const Progress& progress);
 
 /// The least voxel, at least `wanted`, with which the band between a surface and its inset has no more voxels than fit.

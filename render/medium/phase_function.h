@@ -60,4 +60,11 @@ private:
     const PhaseTable* table_ = nullptr;
 };
 
+/// The direction at an angle of this cosine to d, which is unit; u: in 0..1, around d.
+inline V3d turned(const V3d& d, double cosine, double u)
+{
+    const double phi = 2 * pi * u, sine = safe_sqrt(1 - cosine * cosine);
+    return Frame(d).to_world({sine * std::cos(phi), sine * std::sin(phi), cosine}).normalized();
+}
+
 } // namespace scree

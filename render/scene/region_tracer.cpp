@@ -20,16 +20,22 @@ std::array<V3d, 3> corners_of(const MediumRegion& region, uint32_t triangle)
 /// Where o + t d meets a triangle; false where it passes beside it or within its plane.
 ///
 /// On which side of an edge a ray passes is the sign of a volume, which for two triangles that share the edge is the same number: no ray goes between them
-/// (Platis and Theoharis 2003, in double).
+/// (Platis and Theoharis 2003, in double). One through the edge itself passes where one does that starts next to nothing aside (Edelsbrunner and Mücke 1990).
 bool meets(const std::array<V3d, 3>& corners, const V3d& o, const V3d& d, double& t, bool& enters)
 {
     const V3d a = corners[0] - o, b = corners[1] - o, c = corners[2] - o;
     const double u = d.dot(b.cross(c)), v = d.dot(c.cross(a)), w = d.dot(a.cross(b));
-    if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return false;
+    const auto is_left = [&d](double volume, const V3d& from, const V3d& to) {
+        if (volume != 0) return volume > 0;
+        const V3d aside = (from - to).cross(d);
+        return aside.x != 0 ? aside.x > 0 : aside.y != 0 ? aside.y > 0 : aside.z > 0;
+    };
+    const bool left = is_left(u, b, c);
+    if (left != is_left(v, c, a) || left != is_left(w, a, b)) return false;
     const double sum = u + v + w;
     if (sum == 0) return false;
     t = d.dot(u * a + v * b + w * c) / sum;
-    enters = sum < 0;
+    enters = !left;
     return true;
 }
 
@@ -38,6 +44,7 @@ struct CrossingQuery {
     RTCIntersectContext context; // first: Embree hands it back
     const World& world;
     V3d o, d;
+    double ahead;                // the ray is met from o + ahead d on, as near to the regions as it comes: a double must tell what is left of it there
     double tmin, best, advanced; // Embree's ray starts at o + advanced d
     double slack;                // what rounding to float may move a crossing by
     const Crossing* last;
@@ -49,10 +56,11 @@ struct CrossingQuery {
     bool offer(uint32_t region, uint32_t triangle, RTCRay& embree)
     {
         Crossing met{0, region, triangle, false};
-        if (!meets(corners_of(world.regions[region], triangle), o, d, met.t, met.enters)) {
+        if (!meets(corners_of(world.regions[region], triangle), o + ahead * d, d, met.t, met.enters)) {
             doubtful = true;
             return false;
         }
+        met.t += ahead;
         // Where surfaces coincide they are gone through in order of their numbers.
         const auto number = [](const Crossing& of) { return std::pair{of.region, of.triangle}; };
         if (last && number(met) == number(*last)) return false;
@@ -102,8 +110,9 @@ struct RegionTracer::Impl {
     const World& world;
     RTCScene triangles = nullptr; // quick, and tight for rays as they are in float
     RTCScene boxes = nullptr;     // around triangles: whatever a ray meets in double is in one that it meets in float
+    Imath::Box3d box;  // of all regions
     V3d middle{0};
-    double radius = 0; // around the middle, of all regions
+    double radius = 0; // around the middle
     double slack = 0;  // what rounding of a ray to float may move it by
 
     Impl(std::shared_ptr<const EmbreeDevice> device_, const World& world_);
@@ -125,7 +134,6 @@ private:
 
 RegionTracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const World& world_) : device(std::move(device_)), world(world_)
 {
-    Imath::Box3d box;
     for (const MediumRegion& region : world.regions) box.extendBy(region.bounds());
     middle = box.center();
     radius = 0.5 * box.size().length();
@@ -183,7 +191,7 @@ V3d RegionTracer::normal(const Crossing& crossing) const
     return unit_normal(corners_of(impl_->world.regions[crossing.region], crossing.triangle));
 }
 
-bool RegionTracer::find(const V3d& o, const V3d& d, double tmin, double tmax, const Crossing* last, bool surely, Crossing& crossing) const
+bool RegionTracer::find(const V3d& o, const V3d& d, double tmin, double tmax, const Crossing* last, bool& surely, Crossing& crossing) const
 {
     // A ray starts no farther away than the regions' size.
     const V3d to = impl_->middle - o;
@@ -191,7 +199,7 @@ bool RegionTracer::find(const V3d& o, const V3d& d, double tmin, double tmax, co
     if (along + reach < tmin || along - reach > tmax || (to - along * d).length2() > reach * reach) return false;
     const double start = std::max(tmin, along - reach), slack = 4 * impl_->slack;
     // One nearly along a face needs a long way back to be on its near side in float too.
-    CrossingQuery query{{}, impl_->world, o, d, tmin, tmax, start - 0x1p8 * slack, slack, last};
+    CrossingQuery query{{}, impl_->world, o, d, std::max(0.0, along - reach), tmin, tmax, start - 0x1p8 * slack, slack, last};
     rtcInitIntersectContext(&query.context);
     if (!surely) {
         impl_->find(query, impl_->triangles);
@@ -212,10 +220,10 @@ bool RegionTracer::next(const V3d& o, const V3d& d, double tmin, double tmax, co
     // What is ahead tells where the ray is: of one that is in a region, all the way.
     const double end = regions != 0 ? std::numeric_limits<double>::infinity() : tmax;
     Crossing ahead; // last may be what the caller keeps its crossing in
-    bool crosses = find(o, d, tmin, end, last, false, ahead);
+    bool surely = false, crosses = find(o, d, tmin, end, last, surely, ahead);
     const auto told = [&] { return before(regions, crosses ? &ahead : nullptr); };
     if (crosses || std::isinf(end)) {
-        if (told() != regions) crosses = find(o, d, tmin, end, last, true, ahead);
+        if (told() != regions && !surely) crosses = find(o, d, tmin, end, last, surely = true, ahead);
         regions = told();
     }
     if (!crosses || ahead.t >= tmax) return false;
@@ -226,9 +234,11 @@ bool RegionTracer::next(const V3d& o, const V3d& d, double tmin, double tmax, co
 RegionSet RegionTracer::inside(const V3d& o, const V3d& d) const
 {
     RegionSet in = 0, met = 0;
+    if (!impl_->box.intersects(o)) return in; // as most cameras are
     Crossing crossing;
     const Crossing* last = nullptr;
-    for (double t = 0; find(o, d, t, std::numeric_limits<double>::infinity(), last, false, crossing); t = crossing.t, last = &crossing) {
+    bool surely = true; // one that is missed may be the only one
+    for (double t = 0; find(o, d, t, std::numeric_limits<double>::infinity(), last, surely, crossing); t = crossing.t, last = &crossing) {
         const RegionSet bit = RegionSet{1} << crossing.region;
         if (!(met & bit) && !crossing.enters) in |= bit;
         met |= bit;
@@ -244,7 +254,7 @@ RegionSet RegionTracer::after(RegionSet from, const V3d& a, const V3d& b) const
     const V3d d = way / length;
     Crossing crossing;
     const Crossing* last = nullptr;
-    for (double t = 0; find(a, d, t, length, last, false, crossing); t = crossing.t, last = &crossing) from = after(from, crossing);
+    for (double t = 0; next(a, d, t, length, last, from, crossing); t = crossing.t, last = &crossing) from = after(from, crossing);
     return from;
 }
 

@@ -61,8 +61,8 @@ private:
         const RegionSet bit = RegionSet{1} << next->region;
         return next->enters ? regions & ~bit : regions | bit;
     }
-    /// As next, for a ray of which nothing else is known. surely: not by Embree's triangles, which miss some where float is too coarse.
-    bool find(const V3d& o, const V3d& d, double tmin, double tmax, const Crossing* last, bool surely, Crossing& crossing) const;
+    /// As next, for a ray of which nothing else is known. surely: not by Embree's triangles, which miss some where float is too coarse; becomes whether it was so.
+    bool find(const V3d& o, const V3d& d, double tmin, double tmax, const Crossing* last, bool& surely, Crossing& crossing) const;
 
     struct Impl;
     std::unique_ptr<Impl> impl_;

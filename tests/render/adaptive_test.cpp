@@ -271,6 +271,7 @@ TEST(Adaptive, KeepsInACheckpointWhatItDecidesBy)
     Film film(40, 24, 0, 0, 40, 24), again = film;
     film.keep_halves();
     again.keep_halves();
+    film.halves_at(3, 0).note_drawn(0);
     film.tile_states().level = 77;
     film.tile_states().done = 61;
     film.tile_states().tiles[2].work = {12, 34};
@@ -279,11 +280,51 @@ TEST(Adaptive, KeepsInACheckpointWhatItDecidesBy)
     const std::filesystem::path path = folder.path("a.checkpoint");
     write_checkpoint(path, film, {1, 2});
     read_checkpoint(path, again, {1, 2});
+    EXPECT_EQ(again.halves_at(3, 0).next({9, 9}), 1u);
     EXPECT_EQ(again.tile_states().level, 77u);
     EXPECT_EQ(again.tile_states().done, 61u);
     EXPECT_EQ(again.tile_states().tiles[2].work, (std::array<uint64_t, 2>{12, 34}));
     EXPECT_EQ(again.tile_states().tiles[1].counts.counts, (std::array<uint32_t, 2>{5, 6}));
     EXPECT_EQ(again.tile_states().tiles[0].estimates[1].work, 5);
+}
+
+// What a half sees has no say in how many of its own samples count, only in how many of the other's.
+TEST(Adaptive, CountsOfAHalfDoNotDependOnWhatItSaw)
+{
+    const auto counts = [](bool brighter) {
+        Film film(48, 32, 0, 0, 48, 32);
+        film.keep_halves();
+        TileStates& states = film.tile_states();
+        AdaptivePlan plan(states, film.tile_columns(), 0.05);
+        while (!plan.finished()) {
+            for (size_t tile = 0; tile < states.tiles.size(); ++tile) {
+                const auto each = plan.asked(tile);
+                const int x0 = static_cast<int>(tile) % film.tile_columns() * Film::tile_size, y0 = static_cast<int>(tile) / film.tile_columns() * Film::tile_size;
+                for (int y = y0; y < y0 + Film::tile_size; ++y)
+                    for (int x = x0; x < x0 + Film::tile_size; ++x) {
+                        PixelHalves& halves = film.halves_at(x, y);
+                        while (const std::optional<uint32_t> s = halves.next(each)) {
+                            Sampler sampler(3, static_cast<uint32_t>(x), static_cast<uint32_t>(y), *s);
+                            Color radiance = RareLight{0.02 + 0.01 * static_cast<double>(tile)}(sampler);
+                            if (brighter && (*s & 1) == 0) radiance = radiance * radiance;
+                            halves.note_drawn(*s);
+                            halves.add(*s, radiance, states.tiles[tile].counts);
+                            states.tiles[tile].work[*s & 1] += brighter && (*s & 1) == 0 ? 3 : 1;
+                        }
+                    }
+            }
+            estimate_tiles(film, plan);
+            plan.decide();
+        }
+        std::vector<std::array<uint32_t, 2>> all;
+        for (const TileState& tile : states.tiles) all.push_back(tile.counts.counts);
+        return all;
+    };
+    const auto plain = counts(false), changed = counts(true);
+    for (size_t tile = 0; tile < plain.size(); ++tile) {
+        EXPECT_EQ(plain[tile][0], changed[tile][0]) << tile;
+        EXPECT_LT(plain[tile][1], changed[tile][1]) << tile << ": half 0 is noisier";
+    }
 }
 
 TEST(Adaptive, IsTheSamePictureWithAnyThreadsAndResumed)
@@ -314,6 +355,9 @@ TEST(Adaptive, IsTheSamePictureWithAnyThreadsAndResumed)
     for (int i = 0; i < 4; ++i) part(1, 0.02, true, 100000);
     EXPECT_EQ(difference(part(1, 0, true, 100000), whole), "");
     EXPECT_FALSE(std::filesystem::exists(checkpoint));
+    part(1, 1e-9, false, 21);
+    part(1, 1e-9, true, 2);
+    EXPECT_TRUE(std::filesystem::exists(checkpoint)) << "of a limit that was not reached in time";
     const Picture limited = part(1, 0, false, 21);
     EXPECT_EQ(*std::ranges::max_element(limited.integers.at("samples")), 20u) << "both halves alike";
 }

@@ -75,6 +75,7 @@ TEST(MediumPyramid, FindsWhatEachBallInTurnWould)
             }
         }
         std::printf("%-20s %5u found, %5u not\n", name, found, none);
+        EXPECT_GT(found, 0u) << name;
         EXPECT_GT(none, 0u) << name;
     }
 }

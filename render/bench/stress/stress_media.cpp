@@ -209,11 +209,17 @@ void add_medium_cases(StressRun& run)
             return finding;
         });
         // Of a channel that scatters much less than that a path was made for little is seen: it costs many paths.
-        for (const Color& sigma : {Color(16, 4, 1), kind == IntegratorKind::vpt ? Color(32, 0.1f, 1e-3f) : Color(1e3f, 1, 1e-3f)}) {
-            run.add(fmt::format("sigma_t {:g}, {:g}, {:g}, lossless, {}", sigma.x, sigma.y, sigma.z, name_of(kind)), sigma.y == 4 ? StressExtent::quick : StressExtent::full, [&] {
+        struct Coloured {
+            Color sigma;
+            uint32_t spp;
+            StressExtent extent;
+        };
+        const Coloured apart = kind == IntegratorKind::vpt ? Coloured{Color(32, 0.1f, 1e-3f), 1408, StressExtent::full} : Coloured{Color(1e3f, 1, 1e-3f), 2048, StressExtent::full};
+        for (const auto& [sigma, spp, extent] : {Coloured{Color(16, 4, 1), 1024, StressExtent::quick}, apart}) {
+            run.add(fmt::format("sigma_t {:g}, {:g}, {:g}, lossless, {}", sigma.x, sigma.y, sigma.z, name_of(kind)), extent, [&, sigma = sigma, spp = spp] {
                 StressScene cube = cube_of_medium(1, 1, 0);
                 cube.description.media[0].sigma_t = sigma;
-                const StressView coloured{.kind = kind, .accuracy = Accuracy::draft, .spp = sigma.y == 4 ? 1024u : sigma.x == 1e3f ? 2048u : 1408u};
+                const StressView coloured{.kind = kind, .accuracy = Accuracy::draft, .spp = spp};
                 const StressPicture picture = StressStage(cube, {}, coloured, run.progress()).render(coloured, run.progress());
                 StressFinding finding = compare_truth(picture.film, std::vector<double>(picture.film.pixels().size(), 1), 4);
                 finding.count(picture.statistics);
