@@ -1,7 +1,7 @@
 #include "ingest/frame_statistics.h"
 
 #include "ingest/sphere_grid.h"
-#include "ingest/support/error.h"
+#include "base/error.h"
 
 #include <Imath/ImathMatrix.h>
 #include <tbb/blocked_range.h>

@@ -1,9 +1,9 @@
 #include "ingest/info_report.h"
 
 #include "ingest/frame_statistics.h"
-#include "ingest/support/text.h"
-#include "ingest/triangle_mesh.h"
-#include "ingest/vdb_points.h"
+#include "base/text.h"
+#include "ingest/meshes/triangle_mesh.h"
+#include "ingest/particles/vdb_points.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ingest/dump_series.h"
+#include "ingest/particles/dump_series.h"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -1,6 +1,6 @@
 #include "mixtures/explicit_mixture.h"
 
-#include "ingest/support/error.h"
+#include "base/error.h"
 
 #include <fmt/format.h>
 

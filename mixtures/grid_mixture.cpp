@@ -1,7 +1,7 @@
 #include "mixtures/grid_mixture.h"
 
-#include "ingest/support/error.h"
-#include "mixtures/hash.h"
+#include "base/error.h"
+#include "base/hash.h"
 
 #include <fmt/format.h>
 #include <openvdb/openvdb.h>

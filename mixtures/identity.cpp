@@ -1,6 +1,6 @@
 #include "mixtures/identity.h"
 
-#include "mixtures/hash.h"
+#include "base/hash.h"
 
 #include <cmath>
 #include <numbers>

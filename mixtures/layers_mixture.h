@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mixtures/mixture.h"
-#include "mixtures/noise.h"
+#include "base/noise.h"
 
 #include <optional>
 #include <vector>

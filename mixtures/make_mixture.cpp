@@ -1,10 +1,10 @@
 #include "mixtures/make_mixture.h"
 
-#include "ingest/support/error.h"
+#include "base/error.h"
 #include "mixtures/blend_mixture.h"
 #include "mixtures/explicit_mixture.h"
 #include "mixtures/grid_mixture.h"
-#include "mixtures/hash.h"
+#include "base/hash.h"
 #include "mixtures/layers_mixture.h"
 #include "mixtures/perlin_mixture.h"
 #include "mixtures/random_mixture.h"

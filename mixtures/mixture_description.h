@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mixtures/checkerboard_mixture.h"
-#include "mixtures/noise.h"
+#include "base/noise.h"
 
 #include <filesystem>
 #include <map>

@@ -1,6 +1,6 @@
 #include "mixtures/mixture_series.h"
 
-#include "ingest/support/error.h"
+#include "base/error.h"
 #include "mixtures/explicit_mixture.h"
 
 #include <fmt/format.h>

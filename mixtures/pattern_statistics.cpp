@@ -1,6 +1,6 @@
 #include "mixtures/pattern_statistics.h"
 
-#include "mixtures/hash.h"
+#include "base/hash.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "mixtures/random_mixture.h"
 
-#include "mixtures/hash.h"
+#include "base/hash.h"
 
 #include <algorithm>
 #include <cmath>

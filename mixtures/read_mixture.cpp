@@ -1,6 +1,6 @@
 #include "mixtures/read_mixture.h"
 
-#include "ingest/support/json.h"
+#include "base/json.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "ingest/particle_frame.h"
-#include "mixtures/picture.h"
+#include "ingest/particles/particle_frame.h"
+#include "base/drawing/picture.h"
 
 #include <optional>
 #include <span>

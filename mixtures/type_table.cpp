@@ -1,8 +1,8 @@
 #include "mixtures/type_table.h"
 
-#include "ingest/support/byte_source.h"
-#include "ingest/support/error.h"
-#include "ingest/support/text.h"
+#include "base/byte_source.h"
+#include "base/error.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "mixtures/type_table.h"
 
-#include "ingest/support/error.h"
+#include "base/error.h"
 
 #include <fmt/format.h>
 #include <openvdb/openvdb.h>

@@ -1,7 +1,7 @@
 #include "packing/report/containment.h"
 
-#include "packing/distance_field.h"
-#include "packing/domain.h"
+#include "packing/solids/distance_field.h"
+#include "packing/solids/domain.h"
 #include "packing/report/ordered_sum.h"
 
 #include <algorithm>

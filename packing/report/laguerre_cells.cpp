@@ -1,6 +1,6 @@
 #include "packing/report/laguerre_cells.h"
 
-#include "ingest/support/error.h"
+#include "base/error.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Exact_rational.h>

@@ -1,6 +1,6 @@
 #include "packing/report/ordered_sum.h"
 
-#include "ingest/support/error.h"
+#include "base/error.h"
 
 #include <tbb/parallel_for.h>
 

@@ -1,10 +1,10 @@
 #include "packing/report/packed_spheres.h"
 
-#include "ingest/support/error.h"
-#include "mixtures/hash.h"
-#include "packing/distance_field.h"
-#include "packing/domain.h"
-#include "packing/interior_sampler.h"
+#include "base/error.h"
+#include "base/hash.h"
+#include "packing/solids/distance_field.h"
+#include "packing/solids/domain.h"
+#include "packing/solids/interior_sampler.h"
 #include "packing/report/ordered_sum.h"
 
 #include <fmt/format.h>

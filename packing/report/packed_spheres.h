@@ -1,8 +1,8 @@
 #pragma once
 
-#include "ingest/particle_frame.h"
+#include "ingest/particles/particle_frame.h"
 #include "ingest/sphere_grid.h"
-#include "ingest/support/progress.h"
+#include "base/progress.h"
 #include "packing/report/hard_sphere_fluid.h"
 
 #include <Imath/ImathBox.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ingest/support/progress.h"
+#include "base/progress.h"
 #include "packing/report/bond_order.h"
 #include "packing/report/containment.h"
 #include "packing/report/laguerre_cells.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "packing/report/packing_report.h"
-#include "packing/report/svg_plot.h"
+#include "base/drawing/svg_plot.h"
 
 namespace scree {
 

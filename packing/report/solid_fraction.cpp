@@ -1,6 +1,6 @@
 #include "packing/report/solid_fraction.h"
 
-#include "mixtures/hash.h"
+#include "base/hash.h"
 #include "packing/report/ordered_sum.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "render/bench/bench_job.h"
 
-#include "ingest/support/error.h"
+#include "base/error.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/render_job.h"
+#include "render/loop/render_job.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,8 +1,8 @@
 #include "render/bench/bench_maps.h"
 
-#include "ingest/support/picture_file.h"
-#include "render/figure_drawing.h"
-#include "render/film/srgb.h"
+#include "base/drawing/picture_file.h"
+#include "base/drawing/figure_drawing.h"
+#include "base/drawing/srgb.h"
 
 namespace scree {
 

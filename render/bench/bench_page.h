@@ -1,6 +1,6 @@
 #pragma once
 
-#include "packing/report/svg_plot.h"
+#include "base/drawing/svg_plot.h"
 #include "render/bench/bench_result.h"
 
 #include <string>

@@ -1,7 +1,7 @@
 #include "render/bench/bench_run.h"
 
-#include "ingest/support/error.h"
-#include "mixtures/hash.h"
+#include "base/error.h"
+#include "base/hash.h"
 #include "render/bench/bench_maps.h"
 #include "render/bench/flip.h"
 

@@ -1,7 +1,7 @@
 #include "render/bench/bench_suite.h"
 
-#include "ingest/support/error.h"
-#include "ingest/support/json.h"
+#include "base/error.h"
+#include "base/json.h"
 
 #include <fmt/format.h>
 

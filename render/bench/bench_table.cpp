@@ -2,7 +2,7 @@
 
 #include "render/bench/bench_words.h"
 #include "render/bench/flip.h"
-#include "render/bench/text_table.h"
+#include "base/text_table.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "render/bench/machine.h"
 
-#include "render/scene/content_hash.h"
+#include "base/content_hash.h"
 
 #include <fmt/chrono.h>
 

@@ -1,7 +1,7 @@
 #include "render/bench/method_run.h"
 
-#include "ingest/support/error.h"
-#include "mixtures/hash.h"
+#include "base/error.h"
+#include "base/hash.h"
 
 #include <algorithm>
 #include <cmath>

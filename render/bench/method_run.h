@@ -2,8 +2,8 @@
 
 #include "render/bench/bench_job.h"
 #include "render/bench/half_pictures.h"
-#include "render/bench/work_meter.h"
-#include "render/render_setup.h"
+#include "base/work_meter.h"
+#include "render/loop/render_setup.h"
 
 #include <memory>
 #include <string>

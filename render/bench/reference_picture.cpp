@@ -1,6 +1,6 @@
 #include "render/bench/reference_picture.h"
 
-#include "ingest/support/error.h"
+#include "base/error.h"
 #include "render/bench/exr_planes.h"
 #include "render/bench/machine.h"
 #include "render/bench/method_run.h"

@@ -1,6 +1,6 @@
 #include "render/bench/suite_report.h"
 
-#include "ingest/support/error.h"
+#include "base/error.h"
 #include "render/bench/bench_page.h"
 #include "render/bench/bench_report.h"
 #include "render/bench/bench_table.h"

@@ -1,7 +1,7 @@
 #include "render/bench/suite_run.h"
 
-#include "ingest/support/atomic_file.h"
-#include "ingest/support/error.h"
+#include "base/atomic_file.h"
+#include "base/error.h"
 #include "render/bench/bench_page.h"
 #include "render/bench/bench_report.h"
 #include "render/bench/bench_run.h"

@@ -1,7 +1,7 @@
 #include "render/film/exr_output.h"
 
-#include "ingest/support/atomic_file.h"
-#include "ingest/support/error.h"
+#include "base/atomic_file.h"
+#include "base/error.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticitiesAttribute.h>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "render/film/aov.h"
 #include "render/film/film.h"
-#include "render/scene/scene_description.h"
 
 #include <Imath/ImathMatrix.h>
 

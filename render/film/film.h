@@ -1,7 +1,7 @@
 #pragma once
 
 #include "render/film/halves.h"
-#include "render/math.h"
+#include "base/math.h"
 
 #include <cstdint>
 #include <limits>

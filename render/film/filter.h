@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/math.h"
-#include "render/warp.h"
+#include "base/math.h"
+#include "base/warp.h"
 
 namespace scree {
 

@@ -1,8 +1,8 @@
 #include "render/film/exr_output.h"
 
-#include "ingest/support/error.h"
-#include "ingest/support/picture_file.h"
-#include "render/film/srgb.h"
+#include "base/error.h"
+#include "base/drawing/picture_file.h"
+#include "base/drawing/srgb.h"
 
 namespace scree {
 

@@ -1,9 +1,9 @@
 #include "render/grains/exemplar.h"
 
-#include "ingest/support/error.h"
-#include "render/grains/enclosing_sphere.h"
-#include "render/grains/triangle.h"
-#include "render/scene/embree_ray.h"
+#include "base/error.h"
+#include "ingest/meshes/enclosing_sphere.h"
+#include "render/embree/triangle.h"
+#include "render/embree/embree_ray.h"
 
 namespace scree {
 

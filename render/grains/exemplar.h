@@ -1,8 +1,8 @@
 #pragma once
 
-#include "ingest/triangle_mesh.h"
-#include "render/math.h"
-#include "render/scene/embree_device.h"
+#include "ingest/meshes/triangle_mesh.h"
+#include "base/math.h"
+#include "render/embree/embree_device.h"
 
 #include <array>
 #include <limits>

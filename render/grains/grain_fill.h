@@ -1,9 +1,9 @@
 #pragma once
 
 #include "mixtures/mixture.h"
-#include "packing/procedural_fill.h"
+#include "packing/fill/procedural_fill.h"
 #include "render/grains/grain_store.h"
-#include "render/scene/render_space.h"
+#include "base/render_space.h"
 
 #include <memory>
 

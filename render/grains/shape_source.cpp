@@ -1,7 +1,7 @@
 #include "render/grains/shape_source.h"
 
-#include "ingest/support/error.h"
-#include "render/scene/content_hash.h"
+#include "base/error.h"
+#include "base/content_hash.h"
 
 #include <fstream>
 

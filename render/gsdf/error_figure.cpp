@@ -1,6 +1,6 @@
 #include "render/gsdf/error_figure.h"
 
-#include "render/figure_drawing.h"
+#include "base/drawing/figure_drawing.h"
 
 #include <fmt/format.h>
 

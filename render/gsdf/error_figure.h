@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mixtures/picture.h"
+#include "base/drawing/picture.h"
 #include "render/gsdf/map_errors.h"
 
 #include <string>

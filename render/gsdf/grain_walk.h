@@ -2,7 +2,7 @@
 
 #include "render/grains/exemplar.h"
 #include "render/materials/material.h"
-#include "render/sampler.h"
+#include "base/sampler.h"
 
 namespace scree {
 

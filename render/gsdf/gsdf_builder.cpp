@@ -1,10 +1,10 @@
 #include "render/gsdf/gsdf_builder.h"
 
-#include "ingest/support/error.h"
+#include "base/error.h"
 #include "render/gsdf/density_fit.h"
-#include "render/scene/embree_device.h"
-#include "render/scene/part_report.h"
-#include "render/warp.h"
+#include "render/embree/embree_device.h"
+#include "base/stopwatch.h"
+#include "base/warp.h"
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>

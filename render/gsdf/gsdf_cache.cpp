@@ -1,8 +1,8 @@
 #include "render/gsdf/gsdf_cache.h"
 
-#include "ingest/support/error.h"
+#include "base/error.h"
 #include "render/gsdf/gsdf_file.h"
-#include "render/scene/content_hash.h"
+#include "base/content_hash.h"
 
 #include <fmt/format.h>
 

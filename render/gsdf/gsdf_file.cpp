@@ -1,7 +1,7 @@
 #include "render/gsdf/gsdf_file.h"
 
-#include "render/scene/content_hash.h"
-#include "render/table_file.h"
+#include "base/content_hash.h"
+#include "base/table_file.h"
 
 #include <algorithm>
 #include <cmath>

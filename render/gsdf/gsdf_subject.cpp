@@ -1,7 +1,7 @@
 #include "render/gsdf/gsdf_subject.h"
 
-#include "ingest/support/error.h"
-#include "ingest/support/text.h"
+#include "base/error.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #include "render/gsdf/scattering_map.h"
 
-#include "ingest/support/error.h"
-#include "mixtures/hash.h"
-#include "render/scene/embree_device.h"
-#include "render/warp.h"
+#include "base/error.h"
+#include "base/hash.h"
+#include "render/embree/embree_device.h"
+#include "base/warp.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ingest/support/progress.h"
+#include "base/progress.h"
 #include "render/gsdf/grain_walk.h"
 #include "render/gsdf/gsdf.h"
 

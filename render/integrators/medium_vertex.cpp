@@ -2,7 +2,7 @@
 
 #include "render/integrators/path.h"
 #include "render/stf/medium_shells.h"
-#include "render/warp.h"
+#include "base/warp.h"
 
 #include <bit>
 

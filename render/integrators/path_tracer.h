@@ -1,9 +1,9 @@
 #pragma once
 
 #include "render/film/film.h"
-#include "render/sampler.h"
-#include "render/scene/tracer.h"
-#include "render/scene/pixel_size.h"
+#include "base/sampler.h"
+#include "render/trace/tracer.h"
+#include "render/film/pixel_size.h"
 
 #include <functional>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "render/lights/environment_file.h"
 
-#include "ingest/support/error.h"
-#include "ingest/support/picture_file.h"
+#include "base/error.h"
+#include "base/drawing/picture_file.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/distribution2d.h"
-#include "render/math.h"
+#include "base/distribution2d.h"
+#include "base/math.h"
 
 #include <vector>
 

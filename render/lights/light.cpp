@@ -1,6 +1,6 @@
 #include "render/lights/light.h"
 
-#include "render/warp.h"
+#include "base/warp.h"
 
 #include <limits>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "render/lights/environment_map.h"
-#include "render/math.h"
+#include "base/math.h"
 
 #include <memory>
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include "render/materials/fresnel.h"
 #include "render/materials/microsurface_walk.h"
-#include "render/warp.h"
+#include "base/warp.h"
 
 namespace scree {
 

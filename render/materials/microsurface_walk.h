@@ -1,7 +1,7 @@
 #pragma once
 
 #include "render/materials/material.h"
-#include "render/sampler.h"
+#include "base/sampler.h"
 
 namespace scree {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/math.h"
+#include "base/math.h"
 
 namespace scree {
 

@@ -1,4 +1,4 @@
-#include "ingest/support/json.h"
+#include "base/json.h"
 #include "render/scene/scene_description.h"
 
 namespace scree {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ingest/support/json.h"
+#include "base/json.h"
 #include "render/scene/scene_description.h"
 
 namespace scree {

@@ -1,6 +1,6 @@
 #include "render/scene/scene_description.h"
 
-#include "ingest/support/json.h"
+#include "base/json.h"
 #include "mixtures/read_mixture.h"
 #include "render/scene/read_grain_type.h"
 #include "render/scene/read_medium.h"

@@ -1,10 +1,11 @@
 #pragma once
 
 #include "mixtures/mixture_description.h"
+#include "render/film/aov.h"
 #include "render/film/filter.h"
 #include "render/grains/library/grain_library.h"
 #include "render/materials/material.h"
-#include "render/medium/equivalent_form.h"
+#include "render/equivalent/equivalent_form.h"
 #include "render/scene/camera.h"
 #include "render/stf/stf_form.h"
 
@@ -17,9 +18,6 @@
 namespace scree {
 
 class JsonDocument;
-
-enum class Aov : uint8_t { albedo, normal, depth, type, id, variance, samples };
-inline const std::vector<std::string> aov_names{"albedo", "normal", "depth", "type", "id", "variance", "samples"};
 
 struct FilmDescription {
     int width = 640, height = 480;

@@ -1,6 +1,6 @@
 #include "render/scene/transport_plan.h"
 
-#include "mixtures/hash.h"
+#include "base/hash.h"
 
 #include <fmt/format.h>
 

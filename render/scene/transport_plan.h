@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/scene/pixel_size.h"
+#include "render/film/pixel_size.h"
 #include "render/scene/scene_description.h"
 
 #include <Imath/ImathBox.h>

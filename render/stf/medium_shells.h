@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/medium/homogeneous_medium.h"
-#include "render/medium/medium_pyramid.h"
+#include "render/media/homogeneous_medium.h"
+#include "render/media/medium_pyramid.h"
 #include "render/stf/shell_sampler.h"
 #include "render/stf/stf_form.h"
 

@@ -1,9 +1,9 @@
 #include "render/stf/shell_forecast.h"
 
-#include "ingest/support/error.h"
-#include "render/sampler.h"
+#include "base/error.h"
+#include "base/sampler.h"
 #include "render/stf/medium_shells.h"
-#include "render/warp.h"
+#include "base/warp.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>

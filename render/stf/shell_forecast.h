@@ -1,8 +1,8 @@
 #pragma once
 
-#include "render/medium/clearance_field.h"
-#include "render/medium/grid_medium.h"
-#include "render/medium/medium_pyramid.h"
+#include "render/media/clearance_field.h"
+#include "render/media/grid_medium.h"
+#include "render/media/medium_pyramid.h"
 
 namespace scree {
 

@@ -1,6 +1,6 @@
 #include "render/stf/shell_maps.h"
 
-#include "ingest/support/error.h"
+#include "base/error.h"
 #include "render/stf/shell_walk.h"
 
 #include <fmt/format.h>

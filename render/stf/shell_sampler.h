@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/alias_table.h"
+#include "base/alias_table.h"
 #include "render/stf/stf.h"
 
 namespace scree {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/sampler.h"
+#include "base/sampler.h"
 #include "render/stf/shell_sampler.h"
 
 #include <span>

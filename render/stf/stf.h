@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/math.h"
-#include "render/medium/phase_function.h"
+#include "base/math.h"
+#include "render/media/phase_function.h"
 
 #include <memory>
 #include <vector>

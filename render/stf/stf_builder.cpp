@@ -1,7 +1,7 @@
 #include "render/stf/stf_builder.h"
 
-#include "ingest/support/error.h"
-#include "render/scene/part_report.h"
+#include "base/error.h"
+#include "base/stopwatch.h"
 #include "render/stf/shell_walk.h"
 
 #include <fmt/format.h>

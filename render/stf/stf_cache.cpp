@@ -1,7 +1,7 @@
 #include "render/stf/stf_cache.h"
 
-#include "ingest/support/error.h"
-#include "render/scene/content_hash.h"
+#include "base/error.h"
+#include "base/content_hash.h"
 #include "render/stf/stf_file.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "render/grains/library/grain_library.h"
 #include "render/gsdf/gsdf_builder.h"
-#include "render/warp.h"
+#include "base/warp.h"
 #include "tests/builders/shapes.h"
 
 #include <tbb/parallel_for.h>

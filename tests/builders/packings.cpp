@@ -1,6 +1,6 @@
 #include "tests/builders/packings.h"
 
-#include "mixtures/hash.h"
+#include "base/hash.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "tests/builders/scenes.h"
 
-#include "render/scene/shell_builder.h"
+#include "render/build/shell_builder.h"
 
 namespace scree {
 

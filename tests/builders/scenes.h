@@ -1,9 +1,9 @@
 #pragma once
 
-#include "ingest/triangle_mesh.h"
+#include "ingest/meshes/triangle_mesh.h"
 #include "render/gsdf/gsdf_builder.h"
-#include "render/scene/tracer.h"
-#include "render/scene/world.h"
+#include "render/trace/tracer.h"
+#include "render/trace/world.h"
 #include "render/stf/stf_form.h"
 #include "tests/builders/packings.h"
 

@@ -1,7 +1,7 @@
 #include "tests/builders/slabs.h"
 
-#include "render/medium/grid_medium_build.h"
-#include "render/warp.h"
+#include "render/media/grid_medium_build.h"
+#include "base/warp.h"
 
 #include <tbb/parallel_for.h>
 

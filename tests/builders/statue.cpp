@@ -2,7 +2,7 @@
 
 #include "tests/builders/statue.h"
 
-#include "render/math.h"
+#include "base/math.h"
 
 #include <unordered_map>
 

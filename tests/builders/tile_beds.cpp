@@ -1,7 +1,7 @@
 #include "tests/builders/tile_beds.h"
 
 #include "mixtures/single_mixture.h"
-#include "packing/tile_generator.h"
+#include "packing/tiles/tile_generator.h"
 #include "tests/builders/shapes.h"
 
 #include <map>

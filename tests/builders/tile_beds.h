@@ -1,7 +1,7 @@
 #pragma once
 
-#include "packing/packing_tile.h"
-#include "render/scene/tracer.h"
+#include "packing/tiles/packing_tile.h"
+#include "render/trace/tracer.h"
 
 #include <memory>
 

@@ -1,7 +1,7 @@
 // Whatever is done to a dump, reading it gives frames or an InputError: never a crash, a hang or another exception.
 
-#include "ingest/dump_series.h"
-#include "tests/ingest/test_files.h"
+#include "ingest/particles/dump_series.h"
+#include "tests/builders/test_files.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

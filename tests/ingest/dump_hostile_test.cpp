@@ -1,7 +1,7 @@
 // Dumps that must be refused, each with the line that is wrong and what should stand there.
 
-#include "ingest/dump_series.h"
-#include "tests/ingest/test_files.h"
+#include "ingest/particles/dump_series.h"
+#include "tests/builders/test_files.h"
 
 #include <gmock/gmock.h>
 

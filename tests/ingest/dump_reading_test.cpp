@@ -1,5 +1,5 @@
-#include "ingest/dump_series.h"
-#include "tests/ingest/test_files.h"
+#include "ingest/particles/dump_series.h"
+#include "tests/builders/test_files.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,7 +1,7 @@
 // Random frames written as text come back the same, however the text is laid out, ordered and packed.
 
-#include "ingest/dump_series.h"
-#include "tests/ingest/test_files.h"
+#include "ingest/particles/dump_series.h"
+#include "tests/builders/test_files.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

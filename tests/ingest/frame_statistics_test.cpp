@@ -1,6 +1,6 @@
 #include "ingest/frame_statistics.h"
 
-#include "ingest/support/error.h"
+#include "base/error.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

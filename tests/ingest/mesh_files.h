@@ -1,7 +1,7 @@
 #pragma once
 
-#include "ingest/support/error.h"
-#include "ingest/triangle_mesh.h"
+#include "base/error.h"
+#include "ingest/meshes/triangle_mesh.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "tests/mixtures/mixture_builders.h"
 
-#include "ingest/support/json.h"
-#include "mixtures/hash.h"
+#include "base/json.h"
+#include "base/hash.h"
 #include "mixtures/read_mixture.h"
 
 #include <openvdb/openvdb.h>

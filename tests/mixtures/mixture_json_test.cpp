@@ -1,9 +1,9 @@
 // Mixtures as JSON: any generated one survives the round trip and evaluates the same; any damaged one is an InputError.
 
-#include "ingest/support/json.h"
+#include "base/json.h"
 #include "mixtures/describe_mixture.h"
 #include "mixtures/read_mixture.h"
-#include "tests/ingest/test_files.h"
+#include "tests/builders/test_files.h"
 #include "tests/mixtures/mixture_builders.h"
 
 #include <fmt/format.h>

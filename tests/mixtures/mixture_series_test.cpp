@@ -1,11 +1,11 @@
 // Over the frames of a film no sphere changes its type or rotation.
 
-#include "ingest/dump_series.h"
-#include "ingest/support/json.h"
+#include "ingest/particles/dump_series.h"
+#include "base/json.h"
 #include "mixtures/identity.h"
 #include "mixtures/mixture_series.h"
 #include "mixtures/read_mixture.h"
-#include "tests/ingest/test_files.h"
+#include "tests/builders/test_files.h"
 #include "tests/mixtures/mixture_builders.h"
 
 #include <gtest/gtest.h>

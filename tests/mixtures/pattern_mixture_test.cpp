@@ -1,10 +1,10 @@
 #include "mixtures/blend_mixture.h"
 #include "mixtures/checkerboard_mixture.h"
 #include "mixtures/explicit_mixture.h"
-#include "mixtures/hash.h"
+#include "base/hash.h"
 #include "mixtures/single_mixture.h"
 #include "tests/builders/statistics.h"
-#include "tests/ingest/test_files.h"
+#include "tests/builders/test_files.h"
 #include "tests/mixtures/mixture_builders.h"
 
 #include <fmt/format.h>

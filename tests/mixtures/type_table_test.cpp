@@ -1,6 +1,6 @@
-#include "ingest/vdb_points.h"
+#include "ingest/particles/vdb_points.h"
 #include "mixtures/type_table.h"
-#include "tests/ingest/test_files.h"
+#include "tests/builders/test_files.h"
 #include "tests/mixtures/mixture_builders.h"
 
 #include <fmt/format.h>

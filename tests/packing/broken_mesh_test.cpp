@@ -1,9 +1,9 @@
 // Meshes that bound no solid: each is told by its first defect and place, or repaired with a word on what was changed. None takes
 // the program down or holds it up, TetGen included.
 
-#include "ingest/support/error.h"
-#include "packing/domain.h"
-#include "packing/tetrahedra.h"
+#include "base/error.h"
+#include "packing/solids/domain.h"
+#include "packing/solids/tetrahedra.h"
 #include "tests/builders/shapes.h"
 #include "tests/packing/solids.h"
 

@@ -1,8 +1,8 @@
 // Domain::contains_sphere against all triangles in exact arithmetic. The number of balls in each solid is SCREE_SPHERES
 // (environment) or 10,000; the slow run has 1,000,000.
 
-#include "mixtures/hash.h"
-#include "packing/domain.h"
+#include "base/hash.h"
+#include "packing/solids/domain.h"
 #include "tests/builders/shapes.h"
 #include "tests/packing/exact_containment.h"
 #include "tests/packing/solids.h"

@@ -1,7 +1,7 @@
-#include "packing/distance_field.h"
+#include "packing/solids/distance_field.h"
 
-#include "ingest/support/error.h"
-#include "mixtures/hash.h"
+#include "base/error.h"
+#include "base/hash.h"
 #include "tests/builders/shapes.h"
 #include "tests/packing/solids.h"
 

@@ -1,8 +1,8 @@
-#include "packing/domain.h"
+#include "packing/solids/domain.h"
 
-#include "mixtures/hash.h"
-#include "packing/exact_distance.h"
-#include "packing/surface_tree.h"
+#include "base/hash.h"
+#include "packing/solids/exact_distance.h"
+#include "packing/solids/surface_tree.h"
 #include "tests/builders/shapes.h"
 #include "tests/packing/exact_containment.h"
 #include "tests/packing/solids.h"

@@ -1,7 +1,7 @@
-#include "packing/interior_sampler.h"
+#include "packing/solids/interior_sampler.h"
 
-#include "packing/tetrahedra.h"
-#include "packing/worker_process.h"
+#include "packing/solids/tetrahedra.h"
+#include "base/worker_process.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/statistics.h"
 #include "tests/packing/solids.h"

@@ -1,14 +1,14 @@
 // Which spheres a fill has: those of the repeated tile that lie whole in the domain, each once, whoever asks and in what order.
 
-#include "packing/list_fill.h"
+#include "packing/fill/list_fill.h"
 
 #include "ingest/frame_statistics.h"
-#include "ingest/vdb_point_stream.h"
-#include "ingest/vdb_points.h"
-#include "mixtures/hash.h"
-#include "packing/tile_generator.h"
+#include "ingest/particles/vdb_point_stream.h"
+#include "ingest/particles/vdb_points.h"
+#include "base/hash.h"
+#include "packing/tiles/tile_generator.h"
 #include "tests/builders/shapes.h"
-#include "tests/ingest/test_files.h"
+#include "tests/builders/test_files.h"
 
 #include <gmock/gmock.h>
 

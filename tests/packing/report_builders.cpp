@@ -1,6 +1,6 @@
 #include "tests/packing/report_builders.h"
 
-#include "mixtures/hash.h"
+#include "base/hash.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ingest/particle_frame.h"
+#include "ingest/particles/particle_frame.h"
 
 #include <cstdint>
 #include <string>

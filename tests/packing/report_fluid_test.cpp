@@ -1,4 +1,4 @@
-#include "ingest/support/error.h"
+#include "base/error.h"
 #include "packing/report/packing_report.h"
 #include "packing/report/report_page.h"
 #include "tests/builders/packings.h"

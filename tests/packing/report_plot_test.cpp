@@ -1,4 +1,4 @@
-#include "packing/report/svg_plot.h"
+#include "base/drawing/svg_plot.h"
 
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>

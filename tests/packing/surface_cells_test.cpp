@@ -1,10 +1,10 @@
 // SurfaceCells against Domain, which other tests hold against exact arithmetic. The number of balls in each solid is
 // SCREE_SPHERES (environment) or 20,000.
 
-#include "packing/surface_cells.h"
+#include "packing/solids/surface_cells.h"
 
-#include "mixtures/hash.h"
-#include "packing/surface_tree.h"
+#include "base/hash.h"
+#include "packing/solids/surface_tree.h"
 #include "tests/builders/shapes.h"
 #include "tests/packing/solids.h"
 

@@ -1,8 +1,8 @@
-#include "ingest/vdb_points.h"
-#include "packing/packing_tile.h"
-#include "packing/tile_generator.h"
-#include "packing/tile_sizes.h"
-#include "tests/ingest/test_files.h"
+#include "ingest/particles/vdb_points.h"
+#include "packing/tiles/packing_tile.h"
+#include "packing/tiles/tile_generator.h"
+#include "packing/tiles/tile_sizes.h"
+#include "tests/builders/test_files.h"
 
 #include <gmock/gmock.h>
 

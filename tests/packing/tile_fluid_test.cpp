@@ -1,8 +1,8 @@
 #include "packing/report/hard_sphere_fluid.h"
 #include "packing/report/packed_spheres.h"
 #include "packing/report/pair_correlation.h"
-#include "packing/tile_generator.h"
-#include "packing/tile_sizes.h"
+#include "packing/tiles/tile_generator.h"
+#include "packing/tiles/tile_sizes.h"
 #include "tests/builders/statistics.h"
 
 #include <gtest/gtest.h>

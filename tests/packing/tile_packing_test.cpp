@@ -1,10 +1,10 @@
 #include "packing/report/bond_order.h"
 #include "packing/report/near_pairs.h"
 #include "packing/report/packed_spheres.h"
-#include "packing/tile_generator.h"
-#include "packing/tile_relaxation.h"
-#include "packing/tile_sizes.h"
-#include "tests/ingest/test_files.h"
+#include "packing/tiles/tile_generator.h"
+#include "packing/tiles/tile_relaxation.h"
+#include "packing/tiles/tile_sizes.h"
+#include "tests/builders/test_files.h"
 
 #include <gmock/gmock.h>
 #include <tbb/global_control.h>

@@ -1,5 +1,5 @@
-#include "packing/tile_sizes.h"
-#include "tests/ingest/test_files.h"
+#include "packing/tiles/tile_sizes.h"
+#include "tests/builders/test_files.h"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
-#include "mixtures/hash.h"
-#include "packing/tile_generator.h"
-#include "packing/tile_sizes.h"
+#include "base/hash.h"
+#include "packing/tiles/tile_generator.h"
+#include "packing/tiles/tile_sizes.h"
 
 #include <gtest/gtest.h>
 

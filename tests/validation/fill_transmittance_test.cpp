@@ -6,9 +6,9 @@
 // Without rotation and variants a beam along an axis of the lattice keeps far more: the same shadows again and again.
 
 #include "mixtures/single_mixture.h"
-#include "packing/tile_generator.h"
-#include "render/scene/tracer.h"
-#include "render/sampler.h"
+#include "packing/tiles/tile_generator.h"
+#include "render/trace/tracer.h"
+#include "base/sampler.h"
 #include "tests/builders/shapes.h"
 
 #include <gmock/gmock.h>

@@ -2,9 +2,9 @@
 
 #include "mixtures/checkerboard_mixture.h"
 #include "render/integrators/path_tracer.h"
-#include "render/medium/walk_bed.h"
-#include "render/scene/grain_medium.h"
-#include "render/warp.h"
+#include "render/equivalent/walk_bed.h"
+#include "render/build/grain_medium.h"
+#include "base/warp.h"
 #include "tests/builders/grain_beds.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"

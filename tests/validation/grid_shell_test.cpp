@@ -1,6 +1,6 @@
 // Shells in media of grids: what varies within a shell's reach must not be taken for its mean.
 
-#include "render/medium/grid_medium_build.h"
+#include "render/media/grid_medium_build.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/slabs.h"
 

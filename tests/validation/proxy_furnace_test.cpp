@@ -1,7 +1,7 @@
 // The white furnace with proxies: lossless grains are invisible in a constant surrounding, whichever strategy finds the light.
 
 #include "render/integrators/path_tracer.h"
-#include "render/warp.h"
+#include "base/warp.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/statistics.h"

@@ -3,7 +3,7 @@
 #include "render/gsdf/gsdf_builder.h"
 #include "render/grains/library/grain_library.h"
 #include "render/integrators/path_tracer.h"
-#include "render/warp.h"
+#include "base/warp.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/statistics.h"
 

@@ -1,6 +1,6 @@
 // Shell tracing against exact solutions of the transport equation, against walks from scattering to scattering, and in white furnaces.
 
-#include "render/medium/grid_medium_build.h"
+#include "render/media/grid_medium_build.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/slabs.h"
 

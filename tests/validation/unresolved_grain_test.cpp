@@ -1,7 +1,7 @@
 // Grains that are narrower than a pixel where they are seen: as bright as proxies from the first on.
 
 #include "render/integrators/path_tracer.h"
-#include "render/warp.h"
+#include "base/warp.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/statistics.h"

@@ -3,7 +3,7 @@
 #include "render/grains/library/shape_generator.h"
 #include "render/grains/library/shape_random.h"
 
-#include "mixtures/noise.h"
+#include "base/noise.h"
 
 namespace scree {
 

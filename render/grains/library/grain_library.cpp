@@ -1,9 +1,9 @@
 #include "render/grains/library/grain_library.h"
 
-#include "ingest/support/error.h"
-#include "ingest/support/text.h"
-#include "mixtures/hash.h"
-#include "render/grains/enclosing_sphere.h"
+#include "base/error.h"
+#include "base/text.h"
+#include "base/hash.h"
+#include "ingest/meshes/enclosing_sphere.h"
 #include "render/grains/library/radial_surface.h"
 #include "render/grains/library/shape_generator.h"
 

@@ -1,7 +1,7 @@
 #include "render/grains/library/half_spaces.h"
 
-#include "mixtures/hash.h"
-#include "render/math.h"
+#include "base/hash.h"
+#include "base/math.h"
 
 #include <stdexcept>
 

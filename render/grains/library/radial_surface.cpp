@@ -1,7 +1,7 @@
 #include "render/grains/library/radial_surface.h"
 
 #include "render/grains/library/edge_split.h"
-#include "render/math.h"
+#include "base/math.h"
 
 namespace scree {
 

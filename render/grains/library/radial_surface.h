@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ingest/triangle_mesh.h"
+#include "ingest/meshes/triangle_mesh.h"
 
 #include <functional>
 

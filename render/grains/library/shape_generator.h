@@ -1,7 +1,7 @@
 #pragma once
 
 #include "render/grains/library/grain_library.h"
-#include "render/math.h"
+#include "base/math.h"
 
 namespace scree {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mixtures/hash.h"
-#include "render/math.h"
+#include "base/hash.h"
+#include "base/math.h"
 
 namespace scree {
 

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "base/content_hash.h"
+#include "ingest/meshes/triangle_mesh.h"
+
+namespace scree {
+
+/// Hash of a mesh's vertices and triangles, as they stand.
+inline uint64_t hash_mesh(const TriangleMesh& mesh, uint64_t seed)
+{
+    return hash_vector(mesh.triangles, hash_vector(mesh.positions, seed));
+}
+
+} // namespace scree

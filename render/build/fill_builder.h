@@ -1,0 +1,23 @@
+#pragma once
+
+#include "packing/fill/procedural_fill.h"
+#include "render/build/part_report.h"
+#include "render/scene/scene_description.h"
+
+#include <memory>
+#include <vector>
+
+namespace scree {
+
+/// A scene's fill with the mixture of its spheres, and what making them cost.
+struct BuiltFill {
+    std::shared_ptr<const ProceduralFill> fill;
+    std::shared_ptr<const Mixture> mixture;
+    std::vector<PartReport> parts;
+    std::vector<std::string> remarks; ///< what was changed in the mesh
+};
+
+/// Reads mesh and tile of the scene's assembly, which is a fill. Throws InputError.
+BuiltFill build_fill(const SceneDescription& scene);
+
+} // namespace scree

@@ -1,0 +1,117 @@
+#include "render/build/medium_builder.h"
+
+#include "base/error.h"
+#include "ingest/meshes/mesh_hash.h"
+#include "render/media/vdb_medium.h"
+#include "render/trace/region_tracer.h"
+
+#include <fmt/format.h>
+
+
+namespace scree {
+
+namespace {
+
+VdbMediumOptions vdb_options(const MediumDescription& medium)
+{
+    return {medium.density, medium.albedo_grid, medium.g_grid, {medium.sigma_t, medium.albedo, medium.g, medium.nearest}, {}};
+}
+
+/// A name for messages: the file's.
+std::string name_of(const MediumDescription& medium) { return (medium.mesh.empty() ? medium.vdb : medium.mesh).filename().string(); }
+
+/// Places are doubles of about the size of the region: a way much below 2^-53 of that is none, and light leaves too soon.
+void warn_if_too_dense(const MediumDescription& medium, const Imath::Box3d& bounds, double unit, std::vector<std::string>& warnings)
+{
+    constexpr double least = 0x1p-46; // mean free paths, of the region's size: at 2^-47 nothing was seen yet
+    const double size = bounds.size().length(), sigma_t = max_component(medium.sigma_t) * unit;
+    if (!(sigma_t * size * least > 1)) return;
+    warnings.push_back(fmt::format("the mean free path of '{}' is {:.2g} of its size: places cannot tell so small a way, and it looks too bright", name_of(medium), 1 / (sigma_t * size)));
+}
+
+} // namespace
+
+void MediumBuilder::refuse_overlaps(const World& world) const
+{
+    // A path samples media that it is in one after the other; two whose sigma_t depends on the channel would not know of each other.
+    for (size_t i = 0; i < world.regions.size(); ++i) {
+        for (size_t j = 0; j < i; ++j) {
+            const MediumRegion &a = world.regions[i], &b = world.regions[j];
+            const Imath::Box3d x = a.bounds(), y = b.bounds();
+            bool overlap = true; // not only at a face
+            for (int axis = 0; axis < 3; ++axis) overlap = overlap && x.min[axis] < y.max[axis] && y.min[axis] < x.max[axis];
+            if (a.is_achromatic() || b.is_achromatic() || !overlap) continue;
+            throw InputError(scene_.file.string() + ": /medium", fmt::format("'{}' and '{}', of both of which the extinction depends on the channel, within one box", a.name, b.name),
+                             "media apart from each other, or one of them with the same extinction in all channels");
+        }
+    }
+}
+
+MediumBuilder::MediumBuilder(const SceneDescription& scene) : scene_(scene)
+{
+    if (scene.media.size() >= RegionTracer::most_regions) { // one is left for grains
+        throw InputError(scene.file.string() + ": /medium", fmt::format("{} media", scene.media.size()), fmt::format("fewer than {}", RegionTracer::most_regions));
+    }
+}
+
+std::vector<V3d> MediumBuilder::read()
+{
+    std::vector<V3d> points;
+    for (size_t i = meshes_.size(); i < scene_.media.size(); ++i) {
+        const MediumDescription& medium = scene_.media[i];
+        if (!medium.mesh.empty()) {
+            meshes_.push_back(read_closed_mesh(medium.mesh, "as a medium is inside it"));
+            continue;
+        }
+        const Imath::Box3d box = vdb_medium_bounds(medium.vdb, vdb_options(medium));
+        meshes_.push_back(box.isEmpty() ? TriangleMesh{} : box_mesh(box.min, box.max));
+    }
+    for (const TriangleMesh& mesh : meshes_) points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
+    return points;
+}
+
+uint64_t MediumBuilder::build(World& world, const TypeRequest& request, uint64_t hash)
+{
+    std::vector<PartReport>& parts = request.parts;
+    for (size_t i = 0; i < scene_.media.size(); ++i) {
+        const MediumDescription& medium = scene_.media[i];
+        const std::string part = "medium '" + name_of(medium) + "'";
+        if (meshes_[i].triangles.empty()) {
+            parts.push_back({part, false, "its grid is empty"});
+            continue;
+        }
+        const Stopwatch watch;
+        MediumRegion region;
+        region.name = name_of(medium);
+        region.triangles = meshes_[i].triangles;
+        for (const V3d& p : meshes_[i].positions) region.positions.emplace_back(world.space.point(p));
+        uint64_t bytes = region.triangles.size() * sizeof(region.triangles[0]) + region.positions.size() * sizeof(V3f);
+        std::string what = "the same everywhere";
+        if (medium.mesh.empty()) {
+            if (request.precompute == Precompute::never) {
+                parts.push_back({part, true, "to be read"});
+                continue;
+            }
+            Made& made = grids_[i]; // a film of grains mostly stays in one space
+            if (!made.grid || made.space.origin != world.space.origin || made.space.exponent != world.space.exponent) {
+                made = {std::make_shared<GridMedium>(read_vdb_medium(medium.vdb, vdb_options(medium), world.space, request.progress)), world.space, made.hash};
+            }
+            region.grid = made.grid;
+            bytes += region.grid->bytes();
+            what = "from grids";
+            if (made.hash == 0) made.hash = hash_file(medium.vdb, 1);
+            hash = mix64(hash ^ made.hash);
+        } else {
+            const double unit = world.space.world_length(1);
+            warn_if_too_dense(medium, region.bounds(), unit, request.warnings);
+            region.homogeneous = std::make_shared<HomogeneousMedium>(unit * V3d(medium.sigma_t.x, medium.sigma_t.y, medium.sigma_t.z), medium.albedo, medium.g);
+        }
+        parts.push_back({part, true, fmt::format("{}, within {} triangles", what, region.triangles.size()), watch.seconds(), bytes});
+        hash = hash_mesh(meshes_[i], hash);
+        world.regions.push_back(std::move(region));
+    }
+    refuse_overlaps(world);
+    return hash;
+}
+
+} // namespace scree

@@ -1,0 +1,400 @@
+#include "render/build/world_builder.h"
+
+#include "base/error.h"
+#include "base/text.h"
+#include "ingest/meshes/mesh_hash.h"
+#include "ingest/meshes/triangle_mesh.h"
+#include "ingest/particles/vdb_points.h"
+#include "mixtures/mixture_series.h"
+#include "base/content_hash.h"
+#include "render/build/fill_builder.h"
+#include "render/build/grain_facts.h"
+#include "render/build/light_builder.h"
+#include "render/build/medium_builder.h"
+#include "render/build/mixture_hash.h"
+#include "render/build/planned_media.h"
+#include "render/lights/environment_file.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <map>
+
+namespace scree {
+
+namespace {
+
+/// The box as a space: its middle, and its size in powers of two.
+RenderSpace space_of(const Imath::Box3d& box)
+{
+    RenderSpace space;
+    space.origin = 0.5 * box.min + 0.5 * box.max;
+    const V3d half = 0.5 * (box.max - box.min);
+    const double size = std::max({half.x, half.y, half.z});
+    if (size > 0) std::frexp(size, &space.exponent);
+    return space;
+}
+
+bool is_points_file(const std::filesystem::path& path) { return lower_case(path.extension().string()) == ".vdb"; }
+
+/// Bounds of points, and through `space` the middle and size of the scene in powers of two.
+struct Bounds {
+    V3d lo{std::numeric_limits<double>::infinity()}, hi{-std::numeric_limits<double>::infinity()};
+
+    void extend(const V3d& p, double r = 0)
+    {
+        for (int i = 0; i < 3; ++i) {
+            lo[i] = std::min(lo[i], p[i] - r);
+            hi[i] = std::max(hi[i], p[i] + r);
+        }
+    }
+    bool empty() const { return !(lo.x <= hi.x); }
+    RenderSpace space() const { return empty() ? RenderSpace() : space_of({lo, hi}); }
+};
+
+/// The middle of the bounds; or, where a few grains have run so far away that the middle would cost the others their
+/// precision, the median of each axis.
+V3d scene_origin(const std::vector<V3d>& points, const Bounds& bounds)
+{
+    constexpr double far = 1000; // in widths of the middle half of the grains
+    const V3d middle = bounds.space().origin;
+    const size_t n = points.size();
+    if (n < 16) return middle;
+    V3d median;
+    double width = 0, reach = 0;
+    std::vector<double> values(n);
+    for (int axis = 0; axis < 3; ++axis) {
+        std::ranges::transform(points, values.begin(), [axis](const V3d& p) { return p[axis]; });
+        const auto quantile = [&](size_t index) {
+            const auto place = values.begin() + static_cast<std::ptrdiff_t>(index);
+            std::ranges::nth_element(values, place);
+            return *place;
+        };
+        width = std::max(width, quantile(3 * n / 4) - quantile(n / 4));
+        median[axis] = quantile(n / 2);
+        reach = std::max({reach, bounds.hi[axis] - median[axis], median[axis] - bounds.lo[axis]});
+    }
+    return reach > far * width && width > 0 ? median : middle;
+}
+
+/// Centres the scene on what its grains were packed into, so that the fill and the list of its spheres are the same numbers.
+void set_domain(const Imath::Box3d& domain, World& world)
+{
+    world.space = space_of(domain);
+    world.domain = Imath::Box3d(world.space.point(domain.min), world.space.point(domain.max));
+}
+
+/// The scene's spheres, whatever they come from, with the grain type of each.
+struct Spheres {
+    ParticleFrame frame;
+    std::vector<uint8_t> types;
+};
+
+} // namespace
+
+struct WorldBuilder::Impl {
+    const SceneDescription scene;
+    std::shared_ptr<EmbreeDevice> device = std::make_shared<EmbreeDevice>();
+    std::optional<DumpSeries> series;
+    std::optional<MixtureSeries> mixtures;
+    std::optional<BuiltFill> fill;
+    TypeBuilder types{device};
+    MediumBuilder media{scene};
+    std::vector<TriangleMesh> surfaces;
+    std::map<size_t, std::shared_ptr<const EnvironmentMap>> maps; // by light
+    PlannedShells shells;
+    std::optional<double> medium_depth;
+    TransportPlan plan;
+    std::vector<PartReport> parts;
+    std::vector<std::string> frame_warnings;
+    uint64_t hash = 0;
+
+    explicit Impl(SceneDescription s) : scene(std::move(s)) {}
+    Spheres read_spheres(size_t frame, const Progress& progress);
+    void decide(const GrainFacts& facts);
+    GrainStore make_grains(Spheres spheres, const TypeRequest& request, World& world);
+    void make_fill(const TypeRequest& request, World& world);
+    TriangleMesh read_surface(const SurfaceDescription& surface) const;
+    void make_surfaces(World& world);
+    LightSet make_lights(const World& world);
+    std::shared_ptr<const EnvironmentMap> read_map(size_t light);
+    std::optional<MixtureSeries> make_mixtures() const;
+    ParticleFrame read_dump(size_t frame, const Progress& progress) const;
+};
+
+std::optional<MixtureSeries> WorldBuilder::Impl::make_mixtures() const
+{
+    if (!scene.assembly || scene.assembly->fill) return std::nullopt;
+    std::vector<std::string> names;
+    for (const GrainTypeDescription& type : scene.types) names.push_back(type.name);
+    std::map<int32_t, std::string> file_types = scene.assembly->types;
+    if (scene.assembly->dump.empty()) { // spheres of the scene file: read_spheres numbers types by their place in the list
+        for (size_t i = 0; i < names.size(); ++i) file_types[static_cast<int32_t>(i)] = names[i];
+    }
+    return MixtureSeries(scene.mixture, names, file_types, scene.assembly->place + "/types");
+}
+
+ParticleFrame WorldBuilder::Impl::read_dump(size_t frame, const Progress& progress) const
+{
+    return series->read(frame, {scene.assembly->radius, scene.assembly->radius_of_type}, progress);
+}
+
+Spheres WorldBuilder::Impl::read_spheres(size_t number, const Progress& progress)
+{
+    Spheres spheres;
+    ParticleFrame& frame = spheres.frame;
+    if (is_points_file(scene.assembly->dump)) {
+        frame = read_vdb_points(scene.assembly->dump);
+    } else if (series) {
+        frame = read_dump(number, progress);
+        if (const auto deciding = mixtures->deciding_frame(series->frame_count()); deciding && !mixtures->decided()) {
+            mixtures->decide(*deciding == number ? frame : read_dump(*deciding, progress));
+        }
+    } else {
+        for (const auto& sphere : scene.assembly->spheres) {
+            frame.id.push_back(frame.id.size());
+            frame.position.push_back(sphere.center);
+            frame.radius.push_back(static_cast<float>(sphere.radius));
+            const auto named = std::ranges::find(scene.types, sphere.type, &GrainTypeDescription::name);
+            frame.type.push_back(named == scene.types.end() ? 0 : static_cast<int32_t>(named - scene.types.begin()));
+        }
+        frame.has_ids = true;
+    }
+    const std::unique_ptr<Mixture> mixture = mixtures->mixture(frame);
+    spheres.types.resize(frame.size());
+    tbb::parallel_for(size_t{0}, frame.size(), [&](size_t i) {
+        spheres.types[i] = static_cast<uint8_t>(mixture->type(i, frame.relative_position(i)));
+    });
+    return spheres;
+}
+
+void WorldBuilder::Impl::decide(const GrainFacts& facts)
+{
+    plan = plan_transport(scene.integrator, scene.camera, scene.film, facts);
+    if (scene.media.empty() && !plan.has_grain_medium) plan.has_shells = false;
+}
+
+GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, const TypeRequest& request, World& world)
+{
+    const ParticleFrame& frame = spheres.frame;
+    Bounds bounds; // grains of radius 0 are left out of the world, and so of its bounds
+    std::vector<uint8_t> used(scene.types.size(), 0);
+    for (size_t i = 0; i < frame.size(); ++i) {
+        if (!(frame.radius[i] > 0)) continue;
+        used[spheres.types[i]] = 1;
+        bounds.extend(frame.position[i], frame.radius[i]);
+    }
+    decide(facts_of_list(frame, spheres.types, scene.types));
+    if (frame.domain) {
+        set_domain(*frame.domain, world);
+    } else {
+        world.space = bounds.space();
+        world.space.origin = scene_origin(frame.position, bounds);
+    }
+
+    hash = types.build(scene.types, used, request, world, hash);
+
+    GrainStore grains;
+    uint64_t without_size = 0;
+    const auto add = [&](size_t i) {
+        const uint32_t type = spheres.types[i];
+        const V3d p = world.space.point(frame.position[i]);
+        const auto r = static_cast<float>(world.space.length(frame.radius[i]));
+        if (!(r >= std::numeric_limits<float>::min())) { // also what underflows: too small for any ray
+            ++without_size;
+            return;
+        }
+        grains.spheres.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), r});
+        grains.type_codes.push_back(static_cast<uint8_t>(type));
+        grains.ids.push_back(frame.id[i]);
+        if (!frame.orientation.empty() && world.types[type].exemplar) grains.orientation.push_back(frame.orientation[i]);
+    };
+    grains.spheres.reserve(frame.size() + 1);
+    grains.type_codes.reserve(frame.size());
+    grains.ids.reserve(frame.size());
+    for (const bool meshes : {false, true}) {
+        for (size_t i = 0; i < frame.size(); ++i) {
+            if ((world.types[spheres.types[i]].exemplar != nullptr) == meshes) add(i);
+        }
+        if (!meshes) grains.analytic_count = grains.size();
+    }
+    grains.spheres.push_back({});
+    bool consecutive = true;
+    for (size_t i = 1; i < grains.ids.size() && consecutive; ++i) consecutive = grains.ids[i] == grains.ids[0] + i;
+    if (consecutive) {
+        grains.first_id = grains.ids.empty() ? 0 : grains.ids[0];
+        grains.ids = {};
+    }
+    grains.widen();
+    if (without_size > 0) frame_warnings.push_back(fmt::format("{} grains of radius 0 are left out", without_size));
+    hash = hash_vector(grains.type_codes, hash_vector(frame.radius, hash_vector(frame.position, hash_vector(frame.id, hash))));
+    hash = hash_vector(frame.orientation, hash);
+    return grains;
+}
+
+void WorldBuilder::Impl::make_fill(const TypeRequest& request, World& world)
+{
+    if (!fill) fill = build_fill(scene);
+    parts.insert(parts.end(), fill->parts.begin(), fill->parts.end());
+    frame_warnings.insert(frame_warnings.end(), fill->remarks.begin(), fill->remarks.end());
+    const ProceduralFill& spheres = *fill->fill;
+    set_domain(spheres.domain().bounds(), world);
+    world.fill = std::make_shared<GrainFill>(fill->fill, fill->mixture, world.space);
+    decide(facts_of_fill(*world.fill, scene.types));
+    std::vector<uint8_t> used(scene.types.size(), 1);
+    if (const auto possible = fill->mixture->possible_types()) {
+        for (uint32_t type = 0; type < used.size(); ++type) used[type] = possible->contains(type);
+    }
+    hash = types.build(scene.types, used, request, world, hash);
+    hash = hash_mesh(spheres.domain().mesh(), hash_mixture(scene.mixture, scene.file.parent_path(), hash));
+    hash = hash_vector(spheres.tile().radius, hash_vector(spheres.tile().type, hash));
+    for (const auto& variant : spheres.tile().variants) hash = hash_vector(variant, hash);
+}
+
+TriangleMesh WorldBuilder::Impl::read_surface(const SurfaceDescription& surface) const
+{
+    return surface.material.transmits() ? read_closed_mesh(surface.mesh, "as its material is a dielectric") : read_mesh(surface.mesh);
+}
+
+void WorldBuilder::Impl::make_surfaces(World& world)
+{
+    const Stopwatch watch;
+    if (surfaces.empty()) {
+        for (const auto& surface : scene.surfaces) surfaces.push_back(read_surface(surface));
+    }
+    const std::vector<V3d> around_media = media.read();
+    if (!world.has_grains()) {
+        Bounds bounds;
+        for (const V3d& p : around_media) bounds.extend(p);
+        for (const auto& mesh : surfaces) {
+            for (const V3d& p : mesh.positions) bounds.extend(p);
+        }
+        world.space = bounds.space();
+    }
+    uint64_t triangles = 0, bytes = 0;
+    for (size_t i = 0; i < surfaces.size(); ++i) {
+        Surface surface;
+        surface.name = scene.surfaces[i].mesh.filename().string();
+        surface.material = scene.surfaces[i].material;
+        surface.material.absorption *= static_cast<Real>(world.space.world_length(1));
+        surface.triangles = surfaces[i].triangles;
+        surface.positions.reserve(surfaces[i].positions.size());
+        for (const V3d& p : surfaces[i].positions) surface.positions.emplace_back(world.space.point(p));
+        triangles += surface.triangles.size();
+        bytes += surface.triangles.size() * sizeof(surface.triangles[0]) + surface.positions.size() * sizeof(V3f);
+        hash = hash_mesh(surfaces[i], hash);
+        world.surfaces.push_back(std::move(surface));
+    }
+    if (surfaces.empty()) parts.push_back({"surfaces", false, "the scene has none"});
+    else parts.push_back({"surfaces", true, fmt::format("{} meshes, {} triangles", surfaces.size(), triangles), watch.seconds(), bytes});
+}
+
+/// The map of an environment light, read once; null for others.
+std::shared_ptr<const EnvironmentMap> WorldBuilder::Impl::read_map(size_t light)
+{
+    const LightDescription& description = scene.lights[light];
+    if (description.kind != LightDescription::Kind::environment) return nullptr;
+    auto& map = maps[light];
+    const Stopwatch watch;
+    if (!map) map = std::make_shared<EnvironmentMap>(read_environment(description.file, description.up, description.scale));
+    parts.push_back({"environment map", true, description.file.filename().string(), watch.seconds(), map->texels().size() * sizeof(Color)});
+    hash = hash_vector(map->texels(), hash);
+    return map;
+}
+
+LightSet WorldBuilder::Impl::make_lights(const World& world)
+{
+    std::vector<Light> lights;
+    bool point = false, glass = false;
+    if (std::ranges::none_of(scene.lights, [](const LightDescription& light) { return light.kind == LightDescription::Kind::environment; })) {
+        parts.push_back({"environment map", false, "no light has one"});
+    }
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        lights.push_back(make_light(scene.lights[i], read_map(i), world.space));
+        point |= lights.back().kind == LightKind::distant && lights.back().one_minus_cos == 0;
+    }
+    if (world.has_grains()) {
+        for (const GrainType& type : world.types) glass |= type.material.transmits() || type.material.is_delta();
+    }
+    for (const Surface& surface : world.surfaces) glass |= surface.material.transmits() || surface.material.is_delta();
+    if (point && glass) {
+        frame_warnings.push_back("a distant light of angle 0 cannot be found by paths through glass: its caustics are missing");
+    }
+    double radius2 = world.has_grains() ? 1.0 : 0.0;
+    for (const Surface& surface : world.surfaces) {
+        for (const V3f& p : surface.positions) radius2 = std::max(radius2, V3d(p).length2());
+    }
+    for (const MediumRegion& region : world.regions) {
+        for (const V3f& p : region.positions) radius2 = std::max(radius2, V3d(p).length2());
+    }
+    return LightSet(std::move(lights), std::sqrt(radius2));
+}
+
+WorldBuilder::WorldBuilder(SceneDescription scene) : impl_(std::make_unique<Impl>(std::move(scene)))
+{
+    if (impl_->scene.types.size() > 256) {
+        throw InputError(impl_->scene.file.string() + ": /grains/types", fmt::format("{} grain types", impl_->scene.types.size()), "at most 256");
+    }
+    const auto& assembly = impl_->scene.assembly;
+    if (assembly && !assembly->dump.empty() && !is_points_file(assembly->dump)) impl_->series = DumpSeries::open(assembly->dump);
+    impl_->mixtures = impl_->make_mixtures();
+}
+
+WorldBuilder::~WorldBuilder() = default;
+
+const SceneDescription& WorldBuilder::scene() const { return impl_->scene; }
+size_t WorldBuilder::frame_count() const { return impl_->series ? impl_->series->frame_count() : 1; }
+const TransportPlan& WorldBuilder::plan() const { return impl_->plan; }
+std::optional<double> WorldBuilder::medium_depth() const { return impl_->medium_depth; }
+const std::vector<PartReport>& WorldBuilder::parts() const { return impl_->parts; }
+uint64_t WorldBuilder::scene_hash() const { return impl_->hash; }
+std::shared_ptr<const EmbreeDevice> WorldBuilder::device() const { return impl_->device; }
+
+std::string WorldBuilder::frame_name(size_t frame) const
+{
+    if (!impl_->series) return "";
+    return fmt::format("{} step {}", impl_->series->file(frame).filename().string(), impl_->series->step(frame));
+}
+
+std::vector<std::string> WorldBuilder::warnings() const
+{
+    std::vector<std::string> all = impl_->frame_warnings;
+    if (impl_->series) all.insert(all.begin(), impl_->series->warnings().begin(), impl_->series->warnings().end());
+    return all;
+}
+
+std::shared_ptr<const World> WorldBuilder::build(size_t frame, const Progress& progress, Precompute precompute)
+{
+    impl_->parts.clear();
+    impl_->frame_warnings.clear();
+    impl_->hash = hash_bytes(impl_->scene.canonical.data(), impl_->scene.canonical.size(), frame);
+    auto world = std::make_shared<World>();
+    const TypeRequest request{impl_->plan, precompute, progress, impl_->parts, impl_->frame_warnings};
+    impl_->decide({});
+    if (impl_->scene.assembly && impl_->scene.assembly->fill) {
+        impl_->make_fill(request, *world);
+    } else if (impl_->scene.assembly) {
+        const Stopwatch watch;
+        Spheres spheres = impl_->read_spheres(frame, progress);
+        const uint64_t read = spheres.frame.size();
+        const double read_seconds = watch.seconds();
+        world->grains = impl_->make_grains(std::move(spheres), request, *world);
+        impl_->parts.push_back({"grains", true, fmt::format("{} of {} spheres read", world->grains.size(), read), read_seconds,
+                                world->grains.bytes()});
+    } else {
+        impl_->parts.push_back({"grains", false, "the scene has none"});
+    }
+    impl_->make_surfaces(*world);
+    impl_->hash = impl_->media.build(*world, request, impl_->hash);
+    if (impl_->scene.media.empty()) impl_->parts.push_back({"medium", false, "the scene has none"});
+    if (impl_->plan.replaces_all && (impl_->scene.integrator.grain_depth || impl_->scene.integrator.grain_flights)) {
+        impl_->frame_warnings.push_back("grain_depth and grain_flights have no effect with vpt and stf, which trace no grains");
+    }
+    impl_->medium_depth = make_planned_medium(request, *world);
+    world->lights = impl_->make_lights(*world);
+    impl_->shells.make(request, impl_->media, *world);
+    return world;
+}
+
+} // namespace scree

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "render/film/filter.h"
+#include "render/loop/render_job.h"
+#include "render/build/world_builder.h"
+
+#include <memory>
+#include <vector>
+
+namespace scree {
+
+/// The job's scene with all that the command line has put in its place. Throws InputError.
+SceneDescription load_scene(const RenderJob& job);
+
+/// The scene's camera over a film of its size, in render coordinates.
+Camera make_camera(const SceneDescription& scene, const RenderSpace& space);
+
+/// One frame ready to be rendered: its world, what traces it, its camera, and how a path is to go.
+class RenderSetup {
+public:
+    /// world: what the builder built last. Builds the acceleration structures.
+    RenderSetup(const WorldBuilder& builder, std::shared_ptr<const World> world, const RenderJob& job);
+
+    const World& world() const { return *world_; }
+    const Tracer& tracer() const { return tracer_; }
+    const Camera& camera() const { return camera_; }
+    const Filter& filter() const { return filter_; }
+    const RenderOptions& options() const { return options_; }
+    const std::vector<PartReport>& parts() const { return parts_; } ///< all that was built or skipped
+
+private:
+    RenderSetup(const WorldBuilder& builder, std::shared_ptr<const World> world, const RenderJob& job, int64_t bytes_before, const Stopwatch& watch);
+
+    std::shared_ptr<const World> world_;
+    Tracer tracer_;
+    Camera camera_;
+    Filter filter_;
+    RenderOptions options_;
+    std::vector<PartReport> parts_;
+};
+
+} // namespace scree

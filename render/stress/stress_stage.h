@@ -1,0 +1,44 @@
+#pragma once
+
+#include "render/stress/stress_scene.h"
+#include "render/loop/render_loop.h"
+#include "render/scene/transport_plan.h"
+
+#include <memory>
+#include <optional>
+
+namespace scree {
+
+/// How a stress scene is rendered.
+struct StressView {
+    IntegratorKind kind = IntegratorKind::ept;
+    Accuracy accuracy = Accuracy::standard;
+    uint32_t spp = 16;
+    uint64_t seed = 1;
+    DirectLight direct_light = DirectLight::both;
+    double timeout = 120; ///< seconds, after which a path that is on its way is given up, which counts as a failure
+};
+
+struct StressPicture {
+    Film film;
+    RenderStatistics statistics;
+};
+
+/// A stress scene ready to render: written to a temporary folder, read by what reads a user's scenes, and built.
+class StressStage {
+public:
+    /// Of the view, integrator and accuracy count. Throws InputError, Cancelled.
+    StressStage(const StressScene& scene, const Placing& placing, const StressView& view, const Progress& progress);
+    ~StressStage();
+
+    /// Throws Cancelled.
+    StressPicture render(const StressView& view, const Progress& progress) const;
+    const World& world() const;
+    const TransportPlan& plan() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace scree
