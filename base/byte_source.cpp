@@ -44,15 +44,15 @@ public:
         descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
         if (descriptor_ < 0) {
             const int reason = errno;
-            if (reason == ENOENT)
-                throw InputError(path.string(), "no such file", "a file to read", near_names(path));
+            if (reason == ENOENT) throw InputError(path.string(), "no such file", "a file to read", near_names(path));
             throw InputError(path.string(), std::strerror(reason), "a file that can be read");
         }
-        struct stat status{};
+        struct stat status {};
         if (::fstat(descriptor_, &status) == 0) {
             if (S_ISDIR(status.st_mode)) {
                 ::close(descriptor_);
-                throw InputError(path.string(), "a folder", "a file to read", "for a file per frame give a pattern: 'folder/*.dump'");
+                throw InputError(path.string(), "a folder", "a file to read",
+                                 "for a file per frame give a pattern: 'folder/*.dump'");
             }
             size_ = static_cast<uint64_t>(status.st_size);
         }
@@ -150,7 +150,8 @@ private:
 /// What gzip and Zstandard share: a buffer of packed bytes.
 class PackedDecoder : public Decoder {
 public:
-    PackedDecoder(std::unique_ptr<RawFile> file, const std::string& head) : file_(std::move(file)), buffer_(packed_buffer_size)
+    PackedDecoder(std::unique_ptr<RawFile> file, const std::string& head)
+        : file_(std::move(file)), buffer_(packed_buffer_size)
     {
         std::memcpy(buffer_.data(), head.data(), head.size());
         end_ = head.size();
@@ -169,7 +170,8 @@ protected:
     }
     [[noreturn]] void damaged(const char* kind, const char* why) const
     {
-        throw InputError(file_->path().string(), fmt::format("damaged {} data after {} unpacked bytes ({})", kind, unpacked_, why),
+        throw InputError(file_->path().string(),
+                         fmt::format("damaged {} data after {} unpacked bytes ({})", kind, unpacked_, why),
                          fmt::format("an intact {} file", kind), "copy or write the file again");
     }
 
@@ -277,10 +279,7 @@ private:
     bool in_frame_ = false;
 };
 
-bool starts_with(const std::string& head, std::string_view magic)
-{
-    return head.compare(0, magic.size(), magic) == 0;
-}
+bool starts_with(const std::string& head, std::string_view magic) { return head.compare(0, magic.size(), magic) == 0; }
 
 std::unique_ptr<Decoder> decoder_for(const std::filesystem::path& path)
 {
@@ -292,9 +291,14 @@ std::unique_ptr<Decoder> decoder_for(const std::filesystem::path& path)
     const bool skippable = head.size() >= 4 && (head[0] & 0xf0) == 0x50 && head.compare(1, 3, "\x2a\x4d\x18") == 0;
     if (starts_with(head, "\x28\xb5\x2f\xfd") || skippable) return std::make_unique<ZstdDecoder>(std::move(file), head);
 
-    static constexpr std::array<std::pair<std::string_view, const char*>, 5> foreign{{
-        {"BZh", "bzip2"}, {std::string_view("\xfd" "7zXZ\0", 6), "xz"}, {"PK\x03\x04", "zip"},
-        {"\x04\x22\x4d\x18", "lz4"}, {"\x1f\x9d", "compress (.Z)"}}};
+    static constexpr std::array<std::pair<std::string_view, const char*>, 5> foreign{{{"BZh", "bzip2"},
+                                                                                      {std::string_view("\xfd"
+                                                                                                        "7zXZ\0",
+                                                                                                        6),
+                                                                                       "xz"},
+                                                                                      {"PK\x03\x04", "zip"},
+                                                                                      {"\x04\x22\x4d\x18", "lz4"},
+                                                                                      {"\x1f\x9d", "compress (.Z)"}}};
     for (const auto& [magic, kind] : foreign)
         if (starts_with(head, magic))
             throw InputError(path.string(), fmt::format("a file packed with {}", kind), "plain text, gzip or Zstandard",
@@ -317,7 +321,8 @@ ByteSource::ByteSource(const std::filesystem::path& path) : impl_(std::make_uniq
     impl_->decoder = decoder_for(path);
 }
 
-ByteSource::ByteSource(std::filesystem::path path, std::shared_ptr<const std::string> text) : impl_(std::make_unique<Impl>())
+ByteSource::ByteSource(std::filesystem::path path, std::shared_ptr<const std::string> text)
+    : impl_(std::make_unique<Impl>())
 {
     impl_->path = std::move(path);
     impl_->decoder = std::make_unique<MemoryDecoder>(std::move(text));

@@ -52,18 +52,21 @@ struct ConsoleProgress::Impl {
             last_fraction = -1;
         }
         const double since = std::chrono::duration<double>(now - last_shown).count();
-        const bool due = terminal ? since > 0.1 || fraction >= 1 : fraction >= last_fraction + 0.05 || since > 60 || (fraction >= 1 && last_fraction < 1);
+        const bool due = terminal
+                             ? since > 0.1 || fraction >= 1
+                             : fraction >= last_fraction + 0.05 || since > 60 || (fraction >= 1 && last_fraction < 1);
         if (!due) return;
         last_shown = now;
         last_fraction = fraction;
         const double elapsed = std::chrono::duration<double>(now - stage_start).count();
-        const std::string left = fraction > 0.01 && fraction < 1 ? ", " + duration_text(elapsed * (1 - fraction) / fraction) + " left" : "";
+        const std::string left =
+            fraction > 0.01 && fraction < 1 ? ", " + duration_text(elapsed * (1 - fraction) / fraction) + " left" : "";
         const std::string label = prefix.empty() ? stage : prefix + " " + stage;
         if (terminal) {
             constexpr int width = 30;
             const auto filled = static_cast<size_t>(fraction * width);
-            fmt::print(stderr, "\r{} [{}{}] {:3.0f} %{}\033[K", label, std::string(filled, '#'), std::string(width - filled, '.'),
-                       100 * fraction, left);
+            fmt::print(stderr, "\r{} [{}{}] {:3.0f} %{}\033[K", label, std::string(filled, '#'),
+                       std::string(width - filled, '.'), 100 * fraction, left);
             open_line = true;
         } else {
             fmt::print(stderr, "{} {:.0f} %{}\n", label, 100 * fraction, left);

@@ -11,7 +11,8 @@ double cumulate(const Values& value, size_t n, double* out)
     out[0] = 0;
     for (size_t i = 0; i < n; ++i) out[i + 1] = out[i] + value(i);
     const double total = out[n];
-    for (size_t i = 0; i <= n; ++i) out[i] = total > 0 ? out[i] / total : static_cast<double>(i) / static_cast<double>(n);
+    for (size_t i = 0; i <= n; ++i)
+        out[i] = total > 0 ? out[i] / total : static_cast<double>(i) / static_cast<double>(n);
     out[n] = 1;
     return total;
 }
@@ -55,7 +56,8 @@ double Distribution2D::pdf(const V2d& point) const
 {
     const size_t x = cell_of(point.x, width_), y = cell_of(point.y, height_);
     const double* row = &cells_[y * (width_ + 1)];
-    return (rows_[y + 1] - rows_[y]) * static_cast<double>(height_) * (row[x + 1] - row[x]) * static_cast<double>(width_);
+    return (rows_[y + 1] - rows_[y]) * static_cast<double>(height_) * (row[x + 1] - row[x]) *
+           static_cast<double>(width_);
 }
 
 } // namespace scree

@@ -20,7 +20,7 @@ public:
 
 private:
     size_t width_ = 0, height_ = 0;
-    std::vector<double> rows_;  // height + 1 cumulated sums of the rows, the last is 1
+    std::vector<double> rows_; // height + 1 cumulated sums of the rows, the last is 1
     std::vector<double> cells_; // height * (width + 1) cumulated sums within each row, each row's last is 1
 };
 

@@ -4,7 +4,8 @@
 
 namespace scree {
 
-/// A stable 64-bit mix: the finaliser of SplitMix64 (Steele, Lea, Flood, OOPSLA 2014; constants by Stafford, variant 13).
+/// A stable 64-bit mix: the finaliser of SplitMix64 (Steele, Lea, Flood, OOPSLA 2014; constants by Stafford, variant
+/// 13).
 ///
 /// This function is part of the file formats: types and rotations of grains follow from it, on every machine and in
 /// every version. Pinned by tests.
@@ -32,7 +33,8 @@ constexpr uint64_t hash_with_key(uint64_t index, uint64_t key)
 
 /// Hash of an index under a seed and a stream (which of the several random things of one grain is meant).
 ///
-/// mix64(mix64(index + G) ^ mix64(seed G + stream + 1)), G = 0x9e3779b97f4a7c15 (2^64 over the golden ratio), modulo 2^64.
+/// mix64(mix64(index + G) ^ mix64(seed G + stream + 1)), G = 0x9e3779b97f4a7c15 (2^64 over the golden ratio), modulo
+/// 2^64.
 constexpr uint64_t hash_index(uint64_t index, uint64_t seed, uint64_t stream = 0)
 {
     return hash_with_key(index, hash_key(seed, stream));

@@ -43,8 +43,10 @@ double JsonValue::number(double lo, double hi) const
 {
     const double inf = std::numeric_limits<double>::infinity();
     std::string expected = "a number";
-    if (lo > -inf && hi < inf) expected = fmt::format("a number in {}..{}", lo, hi);
-    else if (lo > -inf) expected = fmt::format("a number of at least {}", lo);
+    if (lo > -inf && hi < inf)
+        expected = fmt::format("a number in {}..{}", lo, hi);
+    else if (lo > -inf)
+        expected = fmt::format("a number of at least {}", lo);
     if (!value_->is_number()) fail(expected);
     const double x = value_->get<double>();
     if (!std::isfinite(x) || x < lo || x > hi) fail(expected);
@@ -155,7 +157,8 @@ JsonValue JsonObject::require(const std::string& key)
         for (const auto& item : value_.value_->items()) {
             if (!did_you_mean(item.key(), {key}).empty() &&
                 std::find(known_.begin(), known_.end(), item.key()) == known_.end()) {
-                throw InputError(value_.place(), "the key '" + item.key() + "' and no '" + key + "'", "the key '" + key + "'");
+                throw InputError(value_.place(), "the key '" + item.key() + "' and no '" + key + "'",
+                                 "the key '" + key + "'");
             }
         }
         throw InputError(value_.place(), "no key '" + key + "'", "the key '" + key + "'");
@@ -179,7 +182,8 @@ void JsonObject::done() const
             std::sort(sorted.begin(), sorted.end());
             const std::string nearest = did_you_mean(item.key(), known_);
             throw InputError(value_.place(), "the unknown key '" + item.key() + "'",
-                             fmt::format("one of {}", fmt::join(sorted, ", ")), nearest.empty() ? "" : nearest.substr(2));
+                             fmt::format("one of {}", fmt::join(sorted, ", ")),
+                             nearest.empty() ? "" : nearest.substr(2));
         }
     }
 }

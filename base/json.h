@@ -55,7 +55,9 @@ private:
     friend class JsonObject;
     struct Root;
     JsonValue(const Root* root, const nlohmann::json* value, std::string path)
-        : root_(root), value_(value), path_(std::move(path)) {}
+        : root_(root), value_(value), path_(std::move(path))
+    {
+    }
     const Root* root_;
     const nlohmann::json* value_;
     std::string path_;

@@ -12,7 +12,7 @@ namespace scree {
 /// One line of a text file, without its line end (LF or CRLF).
 struct TextLine {
     std::string_view text;
-    uint64_t number = 0;    ///< from 1
+    uint64_t number = 0; ///< from 1
     bool terminated = true; ///< false: the file ends where the line does, so that the line may be cut
 };
 
@@ -26,8 +26,8 @@ struct LineBlock {
 /// Consecutive blocks of lines.
 struct LineBlocks {
     std::vector<LineBlock> blocks; ///< of some 100 kB each: work for several threads
-    uint64_t lines = 0;            ///< in all
-    bool terminated = true;        ///< false: the last line is the file's last and had no line end
+    uint64_t lines = 0; ///< in all
+    bool terminated = true; ///< false: the last line is the file's last and had no line end
 };
 
 /// A file line by line, or by many lines at once, with line numbers and bounded memory.

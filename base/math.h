@@ -22,20 +22,27 @@ using Real = double;
 using Real = float;
 #endif
 
-/// Light, and what multiplies it at one place. Single precision, but in a build that checks it against double (SCREE_DOUBLE).
+/// Light, and what multiplies it at one place. Single precision, but in a build that checks it against double
+/// (SCREE_DOUBLE).
 using Color = Imath::Color3<Real>;
 
-/// What adds up along a path: its light, its weight, and what a scattering leaves of that. Of an albedo near 1 single precision keeps
-/// little of 1 - albedo (at 1 - 1e-8 nothing).
+/// What adds up along a path: its light, its weight, and what a scattering leaves of that. Of an albedo near 1 single
+/// precision keeps little of 1 - albedo (at 1 - 1e-8 nothing).
 using Weight = Imath::Color3<double>;
 
 inline constexpr double pi = std::numbers::pi;
 
 template <class T>
-T max_component(const Imath::Color3<T>& c) { return std::max({c.x, c.y, c.z}); }
+T max_component(const Imath::Color3<T>& c)
+{
+    return std::max({c.x, c.y, c.z});
+}
 inline double luminance(const Color& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; } // Rec. 709
 template <class T>
-bool is_black(const Imath::Color3<T>& c) { return c.x == 0 && c.y == 0 && c.z == 0; }
+bool is_black(const Imath::Color3<T>& c)
+{
+    return c.x == 0 && c.y == 0 && c.z == 0;
+}
 
 inline Weight exp(const Weight& c) { return {std::exp(c.x), std::exp(c.y), std::exp(c.z)}; }
 

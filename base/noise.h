@@ -19,12 +19,12 @@ double improved_noise(double x, double y, double z);
 
 /// How octaves of noise are laid over a place.
 struct NoiseOptions {
-    Imath::V3d scale{1};    ///< lattice width of the first octave, per axis, in units of length
-    Imath::V3d offset{0};   ///< added after scaling, in lattice cells
+    Imath::V3d scale{1}; ///< lattice width of the first octave, per axis, in units of length
+    Imath::V3d offset{0}; ///< added after scaling, in lattice cells
     int octaves = 1;
-    double lacunarity = 2;  ///< frequency of an octave over that of the one before
-    double gain = 0.5;      ///< amplitude of an octave over that of the one before
-    uint64_t seed = 0;      ///< 0: octave 0 is not shifted, so that it is improved_noise itself
+    double lacunarity = 2; ///< frequency of an octave over that of the one before
+    double gain = 0.5; ///< amplitude of an octave over that of the one before
+    uint64_t seed = 0; ///< 0: octave 0 is not shifted, so that it is improved_noise itself
 };
 
 /// Sum of octaves of improved noise over the sum of their amplitudes.
@@ -37,7 +37,8 @@ public:
 
     double operator()(const Imath::V3d& place) const
     {
-        const Imath::V3d q(place.x / scale_.x + offset_.x, place.y / scale_.y + offset_.y, place.z / scale_.z + offset_.z);
+        const Imath::V3d q(place.x / scale_.x + offset_.x, place.y / scale_.y + offset_.y,
+                           place.z / scale_.z + offset_.z);
         double sum = 0;
         for (const Octave& o : octaves_) {
             const Imath::V3d r = q * o.frequency + o.shift;

@@ -10,7 +10,10 @@ struct RenderSpace {
     V3d origin{0};
     int exponent = 0;
 
-    V3d point(const V3d& world) const { return V3d(length(world.x - origin.x), length(world.y - origin.y), length(world.z - origin.z)); }
+    V3d point(const V3d& world) const
+    {
+        return V3d(length(world.x - origin.x), length(world.y - origin.y), length(world.z - origin.z));
+    }
     V3d vector(const V3d& world) const { return V3d(length(world.x), length(world.y), length(world.z)); }
     double length(double world) const { return std::ldexp(world, -exponent); }
     double world_length(double render) const { return std::ldexp(render, exponent); }

@@ -6,8 +6,8 @@
 
 namespace scree {
 
-/// Random numbers of one light path, counter-based: number d of sample s of pixel (x, y) under a seed is a pure function
-/// of (seed, x, y, s, d), so that no order of work, thread count or resumption changes a picture.
+/// Random numbers of one light path, counter-based: number d of sample s of pixel (x, y) under a seed is a pure
+/// function of (seed, x, y, s, d), so that no order of work, thread count or resumption changes a picture.
 ///
 /// Philox4x32-10 (Salmon, Moraes, Dror, Shaw, SC 2011): dimensions are independent, however long the path.
 class Sampler {

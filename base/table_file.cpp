@@ -12,13 +12,15 @@ void TableFileWriter::write() const
 {
     AtomicFile output(file_);
     std::ofstream stream(output.temporary(), std::ios::binary);
-    for (const Part& part : parts_) stream.write(static_cast<const char*>(part.bytes), static_cast<std::streamsize>(part.size));
+    for (const Part& part : parts_)
+        stream.write(static_cast<const char*>(part.bytes), static_cast<std::streamsize>(part.size));
     stream.close();
     if (!stream) throw InputError(file_.string(), "a file that cannot be written", "room for " + what_);
     output.commit();
 }
 
-TableFileReader::TableFileReader(const std::filesystem::path& file, std::string what) : file_(file), what_(std::move(what)), stream_(file, std::ios::binary | std::ios::ate)
+TableFileReader::TableFileReader(const std::filesystem::path& file, std::string what)
+    : file_(file), what_(std::move(what)), stream_(file, std::ios::binary | std::ios::ate)
 {
     if (!stream_) throw refuse("no file that can be read");
     left_ = static_cast<uint64_t>(stream_.tellg());
@@ -27,13 +29,15 @@ TableFileReader::TableFileReader(const std::filesystem::path& file, std::string 
 
 void TableFileReader::read(void* bytes, uint64_t size)
 {
-    if (size > left_ || !stream_.read(static_cast<char*>(bytes), static_cast<std::streamsize>(size))) throw refuse("a file that ends early");
+    if (size > left_ || !stream_.read(static_cast<char*>(bytes), static_cast<std::streamsize>(size)))
+        throw refuse("a file that ends early");
     left_ -= size;
 }
 
 InputError TableFileReader::refuse(const std::string& found) const
 {
-    return InputError(file_.string(), found, what_ + " written by this version of Scree", "remove it; it will be made again");
+    return InputError(file_.string(), found, what_ + " written by this version of Scree",
+                      "remove it; it will be made again");
 }
 
 void TableFileReader::finish(uint64_t checksum, uint64_t expected) const

@@ -10,10 +10,7 @@ namespace scree {
 
 namespace {
 
-bool is_blank(char c)
-{
-    return static_cast<unsigned char>(c) <= ' ';
-}
+bool is_blank(char c) { return static_cast<unsigned char>(c) <= ' '; }
 
 } // namespace
 
@@ -44,10 +41,7 @@ std::vector<std::string_view> split_words(std::string_view line)
     return words;
 }
 
-std::string join_words(const std::vector<std::string>& words)
-{
-    return fmt::format("{}", fmt::join(words, ", "));
-}
+std::string join_words(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
 std::string lower_case(std::string_view word)
 {

@@ -8,7 +8,8 @@
 
 namespace scree {
 
-/// What stands in a file, as it can stand in a message: cut to some 60 characters, unprintable bytes as \xNN, in quotes.
+/// What stands in a file, as it can stand in a message: cut to some 60 characters, unprintable bytes as \xNN, in
+/// quotes.
 std::string in_quotes(std::string_view text);
 
 /// The words of a line: what stands between blanks.

@@ -26,7 +26,8 @@ private:
     WorkTime start_;
 };
 
-/// The most memory that was used at once since it was made. Where the system cannot tell that, since the program's start.
+/// The most memory that was used at once since it was made. Where the system cannot tell that, since the program's
+/// start.
 class MemoryMeter {
 public:
     MemoryMeter();

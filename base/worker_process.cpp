@@ -56,7 +56,8 @@ pid_t start(const std::filesystem::path& program, const std::vector<std::string>
 }
 
 /// Sends all of the input and gathers the output until the other side closes; words of what went wrong, or "".
-std::string converse(int socket, std::span<const char> input, Clock::time_point deadline, size_t most_output, std::vector<char>& output)
+std::string converse(int socket, std::span<const char> input, Clock::time_point deadline, size_t most_output,
+                     std::vector<char>& output)
 {
     std::vector<char> buffer(1 << 16);
     bool sending = true;
@@ -68,12 +69,15 @@ std::string converse(int socket, std::span<const char> input, Clock::time_point 
         const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
         if (left <= 0) return "it took too long";
         pollfd ready{socket, static_cast<short>(sending ? POLLIN | POLLOUT : POLLIN), 0};
-        if (poll(&ready, 1, static_cast<int>(std::min<long>(left, 1000))) < 0 && errno != EINTR) return std::strerror(errno);
+        if (poll(&ready, 1, static_cast<int>(std::min<long>(left, 1000))) < 0 && errno != EINTR)
+            return std::strerror(errno);
         if (sending && (ready.revents & POLLOUT) != 0) {
             // No signal for a reader that is gone: it would end this program.
             const ssize_t sent = send(socket, input.data(), input.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
-            if (sent > 0) input = input.subspan(static_cast<size_t>(sent));
-            else if (errno != EAGAIN && errno != EINTR) sending = false; // it closed early: what it wrote still counts
+            if (sent > 0)
+                input = input.subspan(static_cast<size_t>(sent));
+            else if (errno != EAGAIN && errno != EINTR)
+                sending = false; // it closed early: what it wrote still counts
         }
         if ((ready.revents & (POLLIN | POLLHUP | POLLERR)) == 0) continue;
         const ssize_t got = recv(socket, buffer.data(), buffer.size(), MSG_DONTWAIT);
@@ -103,8 +107,8 @@ int wait_for(pid_t process, Clock::time_point deadline, bool& killed)
 
 } // namespace
 
-WorkerResult run_worker(const std::filesystem::path& program, const std::vector<std::string>& arguments, std::span<const char> input,
-                        std::chrono::milliseconds timeout, size_t most_output)
+WorkerResult run_worker(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                        std::span<const char> input, std::chrono::milliseconds timeout, size_t most_output)
 {
     WorkerResult result;
     const Clock::time_point deadline = Clock::now() + timeout;
@@ -124,10 +128,14 @@ WorkerResult run_worker(const std::filesystem::path& program, const std::vector<
     ours.close();
     bool killed = false;
     const int status = wait_for(process, trouble.empty() ? deadline : Clock::now(), killed);
-    if (!trouble.empty()) result.trouble = trouble;
-    else if (killed) result.trouble = "it took too long";
-    else if (WIFSIGNALED(status)) result.trouble = fmt::format("it was stopped by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
-    else result.status = WEXITSTATUS(status);
+    if (!trouble.empty())
+        result.trouble = trouble;
+    else if (killed)
+        result.trouble = "it took too long";
+    else if (WIFSIGNALED(status))
+        result.trouble = fmt::format("it was stopped by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
+    else
+        result.status = WEXITSTATUS(status);
     result.finished = result.status == 0;
     return result;
 }

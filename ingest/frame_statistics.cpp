@@ -1,7 +1,7 @@
 #include "ingest/frame_statistics.h"
 
-#include "ingest/sphere_grid.h"
 #include "base/error.h"
+#include "ingest/sphere_grid.h"
 
 #include <Imath/ImathMatrix.h>
 #include <tbb/blocked_range.h>
@@ -135,11 +135,13 @@ Overlaps overlaps_of(const SphereGrid& grid, const Periodicity& periodicity, siz
                 const bool done = grid.visit_near(other, place, reach, [&](const SphereGrid::Entry& entry) {
                     if (++candidates > most_candidates) return false;
                     // Of two of one level the lower index asks; a sphere asks for its own images.
-                    if (other == level && (entry.index < self.index || (entry.index == self.index && s == 0))) return true;
+                    if (other == level && (entry.index < self.index || (entry.index == self.index && s == 0)))
+                        return true;
                     const double touch = double(self.radius) + double(entry.radius);
                     const double distance2 = (entry.position - place).length2();
                     if (distance2 >= touch * touch) return true;
-                    const double overlap = (touch - std::sqrt(distance2)) / std::min(double(self.radius), double(entry.radius));
+                    const double overlap =
+                        (touch - std::sqrt(distance2)) / std::min(double(self.radius), double(entry.radius));
                     if (overlap > 0) hits.emplace_back(entry.index, overlap);
                     return true;
                 });
@@ -266,7 +268,8 @@ void measure_sizes(const ParticleFrame& frame, FrameStatistics& result)
         }
     }
     result.radius_mean = sum / double(frame.size());
-    if (frame.box && frame.box->volume() > 0) result.pack_rate = 4.0 / 3.0 * std::numbers::pi * volume / frame.box->volume();
+    if (frame.box && frame.box->volume() > 0)
+        result.pack_rate = 4.0 / 3.0 * std::numbers::pi * volume / frame.box->volume();
 }
 
 } // namespace

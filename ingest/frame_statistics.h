@@ -1,7 +1,7 @@
 #pragma once
 
-#include "ingest/particles/particle_frame.h"
 #include "base/progress.h"
+#include "ingest/particles/particle_frame.h"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "ingest/info_report.h"
 
-#include "ingest/frame_statistics.h"
 #include "base/text.h"
+#include "ingest/frame_statistics.h"
 #include "ingest/meshes/triangle_mesh.h"
 #include "ingest/particles/vdb_points.h"
 
@@ -46,16 +46,20 @@ void describe_frame(json& result, const ParticleFrame& frame, bool has_radius)
     json types = json::object();
     for (const auto& [type, count] : statistics.count_of_type) types[std::to_string(type)] = count;
     result["types"] = types;
-    result["bounds"] = statistics.particles > 0 ? json{{"lo", to_json(statistics.lo)}, {"hi", to_json(statistics.hi)}} : json();
+    result["bounds"] =
+        statistics.particles > 0 ? json{{"lo", to_json(statistics.lo)}, {"hi", to_json(statistics.hi)}} : json();
     result["duplicates"] = statistics.duplicates;
-    for (const char* key : {"radius", "pack_rate", "bed_pack_rate", "max_overlap", "max_overlap_ids", "overlapping_pairs", "overlaps_complete"})
+    for (const char* key : {"radius", "pack_rate", "bed_pack_rate", "max_overlap", "max_overlap_ids",
+                            "overlapping_pairs", "overlaps_complete"})
         result[key] = nullptr;
     if (!has_radius) {
         result["notes"].push_back("no column of radii: give them with --radius R, or by type with --radius 1=R 2=R");
         return;
     }
     if (statistics.particles > 0)
-        result["radius"] = {{"min", shortest(statistics.radius_min)}, {"max", shortest(statistics.radius_max)}, {"mean", statistics.radius_mean}};
+        result["radius"] = {{"min", shortest(statistics.radius_min)},
+                            {"max", shortest(statistics.radius_max)},
+                            {"mean", statistics.radius_mean}};
     result["pack_rate"] = to_json(statistics.pack_rate);
     result["bed_pack_rate"] = to_json(statistics.bed_pack_rate);
     result["max_overlap"] = statistics.max_overlap;
@@ -63,13 +67,15 @@ void describe_frame(json& result, const ParticleFrame& frame, bool has_radius)
     result["overlapping_pairs"] = statistics.overlapping_pairs;
     result["overlaps_complete"] = statistics.overlaps_complete;
     if (!statistics.overlaps_complete)
-        result["notes"].push_back("spheres have thousands of neighbours, so that not every pair was looked at: is the radius right?");
+        result["notes"].push_back(
+            "spheres have thousands of neighbours, so that not every pair was looked at: is the radius right?");
 }
 
 std::string words_of(const json& values)
 {
     std::vector<std::string> words;
-    for (const json& value : values) words.push_back(value.is_string() ? value.get<std::string>() : fmt::format("{:.6g}", value.get<double>()));
+    for (const json& value : values)
+        words.push_back(value.is_string() ? value.get<std::string>() : fmt::format("{:.6g}", value.get<double>()));
     return fmt::format("{}", fmt::join(words, " "));
 }
 
@@ -91,19 +97,27 @@ std::string number(const json& value) { return fmt::format("{:.6g}", value.get<d
 void append_box(std::string& text, const json& box)
 {
     if (box.is_null()) return append(text, "box", "none");
-    append(text, "box", fmt::format("{} to {}{}", words_of(box["lo"]), words_of(box["hi"]), box["triclinic"].get<bool>() ? ", triclinic" : ""));
+    append(text, "box",
+           fmt::format("{} to {}{}", words_of(box["lo"]), words_of(box["hi"]),
+                       box["triclinic"].get<bool>() ? ", triclinic" : ""));
     if (box["triclinic"].get<bool>())
-        append(text, "edges", fmt::format("({}) ({}) ({})", words_of(box["edges"][0]), words_of(box["edges"][1]), words_of(box["edges"][2])));
+        append(text, "edges",
+               fmt::format("({}) ({}) ({})", words_of(box["edges"][0]), words_of(box["edges"][1]),
+                           words_of(box["edges"][2])));
     std::string periodic;
     for (size_t axis = 0; axis < 3; ++axis)
-        if (box["periodic"][axis].get<bool>()) periodic += fmt::format("{}{}", periodic.empty() ? "" : " ", box["triclinic"].get<bool>() ? "abc"[axis] : "xyz"[axis]);
+        if (box["periodic"][axis].get<bool>())
+            periodic += fmt::format("{}{}", periodic.empty() ? "" : " ",
+                                    box["triclinic"].get<bool>() ? "abc"[axis] : "xyz"[axis]);
     append(text, "periodic", periodic.empty() ? "no" : periodic);
 }
 
 void append_spheres(std::string& text, const json& d)
 {
     if (!d["radius"].is_null())
-        append(text, "radius", fmt::format("{} to {}, mean {}", number(d["radius"]["min"]), number(d["radius"]["max"]), number(d["radius"]["mean"])));
+        append(text, "radius",
+               fmt::format("{} to {}, mean {}", number(d["radius"]["min"]), number(d["radius"]["max"]),
+                           number(d["radius"]["mean"])));
     append_box(text, d["box"]);
     if (!d["pack_rate"].is_null()) append(text, "pack rate", number(d["pack_rate"]) + " of the box");
     if (!d["bed_pack_rate"].is_null()) append(text, "", number(d["bed_pack_rate"]) + " in the middle of the bed");
@@ -111,11 +125,14 @@ void append_spheres(std::string& text, const json& d)
         if (d["max_overlap_ids"].is_null())
             append(text, "overlaps", "none");
         else
-            append(text, "overlaps", fmt::format("{}{} pairs, up to {} of the smaller radius (ids {} and {})",
-                                                 d["overlaps_complete"].get<bool>() ? "" : "more than ", d["overlapping_pairs"].dump(),
-                                                 number(d["max_overlap"]), d["max_overlap_ids"][0].dump(), d["max_overlap_ids"][1].dump()));
+            append(text, "overlaps",
+                   fmt::format("{}{} pairs, up to {} of the smaller radius (ids {} and {})",
+                               d["overlaps_complete"].get<bool>() ? "" : "more than ", d["overlapping_pairs"].dump(),
+                               number(d["max_overlap"]), d["max_overlap_ids"][0].dump(),
+                               d["max_overlap_ids"][1].dump()));
     }
-    if (d["duplicates"].get<uint64_t>() > 0) append(text, "duplicates", d["duplicates"].dump() + " grains exactly where another one is");
+    if (d["duplicates"].get<uint64_t>() > 0)
+        append(text, "duplicates", d["duplicates"].dump() + " grains exactly where another one is");
 }
 
 } // namespace
@@ -189,13 +206,18 @@ std::string text_of_description(const json& d)
         append(text, "bounds", fmt::format("{} to {}", words_of(d["bounds"]["lo"]), words_of(d["bounds"]["hi"])));
         return text;
     }
-    append(text, "format", (d["format"] == "vdb" ? std::string("OpenVDB points") : std::string("LAMMPS dump")) + (d["units"].is_null() ? "" : ", units " + d["units"].get<std::string>()));
+    append(text, "format",
+           (d["format"] == "vdb" ? std::string("OpenVDB points") : std::string("LAMMPS dump")) +
+               (d["units"].is_null() ? "" : ", units " + d["units"].get<std::string>()));
     append(text, "frames", fmt::format("{}, steps {}", d["frames"].dump(), range_of(d["steps"])));
     append(text, "particles", range_of(d["particles"]) + (d["frames"] == 1 ? "" : " a frame"));
     if (!d["columns"].is_null()) append(text, "columns", words_of(d["columns"]));
-    append(text, "frame", fmt::format("{}: step {}{}", d["frame"].dump(), d["step"].dump(), d["time"].is_null() ? "" : ", time " + number(d["time"])));
+    append(text, "frame",
+           fmt::format("{}: step {}{}", d["frame"].dump(), d["step"].dump(),
+                       d["time"].is_null() ? "" : ", time " + number(d["time"])));
     std::string types;
-    for (const auto& [type, count] : d["types"].items()) types += fmt::format("{}{} ({})", types.empty() ? "" : ", ", type, count.dump());
+    for (const auto& [type, count] : d["types"].items())
+        types += fmt::format("{}{} ({})", types.empty() ? "" : ", ", type, count.dump());
     append(text, "types", types.empty() ? "none" : types);
     append_spheres(text, d);
     for (const json& note : d["notes"]) text += "  note: " + note.get<std::string>() + "\n";

@@ -49,7 +49,8 @@ void SphereGrid::build(Level& level)
     // Points need cells of some width: about one a cell if they were spread evenly.
     const Imath::V3d extent = level.hi - level.lo;
     const double widest = std::max({extent.x, extent.y, extent.z});
-    const double width = level.radius > 0 ? 2 * level.radius : widest / std::cbrt(static_cast<double>(level.entries.size()));
+    const double width =
+        level.radius > 0 ? 2 * level.radius : widest / std::cbrt(static_cast<double>(level.entries.size()));
     level.cells_per_length = std::isfinite(1 / width) ? 1 / width : 1;
 
     const uint64_t count = level.entries.size();

@@ -18,7 +18,7 @@ class SphereGrid {
 public:
     struct Entry {
         Imath::V3d position{0};
-        uint64_t cell = 0;  ///< key of the cell
+        uint64_t cell = 0; ///< key of the cell
         uint64_t index = 0; ///< of the sphere
         float radius = 0;
     };
@@ -35,7 +35,8 @@ public:
 
     /// Calls visit(entry) for every sphere of the level whose centre is within `reach` along each axis (at most
     /// twice the level's radius, for speed), and for some others; stops and returns false when visit returns false.
-    template <class Visit> bool visit_near(size_t level, const Imath::V3d& place, double reach, const Visit& visit) const
+    template <class Visit>
+    bool visit_near(size_t level, const Imath::V3d& place, double reach, const Visit& visit) const
     {
         const Level& grid = levels_[level];
         for (int axis = 0; axis < 3; ++axis)
@@ -69,8 +70,9 @@ private:
         Imath::V3d lo{0}, hi{0};
         uint64_t stride_y = 0, stride_z = 0; ///< of the keys; 0: the rows' keys are hashes
         std::vector<uint64_t> starts; ///< of each bucket's entries, and the end; a power of two of buckets
-        std::vector<Entry> entries;   ///< sorted by bucket
-        std::vector<uint64_t> filled; ///< with hashed rows: a bit is set where cells of that key (its low bits) are filled
+        std::vector<Entry> entries; ///< sorted by bucket
+        std::vector<uint64_t>
+            filled; ///< with hashed rows: a bit is set where cells of that key (its low bits) are filled
 
         uint64_t coordinate(double x, int axis) const
         {

@@ -44,7 +44,10 @@ class TiledMixture final : public Mixture {
 public:
     TiledMixture(std::unique_ptr<Mixture> tile, uint64_t size) : tile_(std::move(tile)), size_(size) {}
 
-    uint32_t type(uint64_t index, const Imath::V3f& position) const override { return tile_->type(index % size_, position); }
+    uint32_t type(uint64_t index, const Imath::V3f& position) const override
+    {
+        return tile_->type(index % size_, position);
+    }
     std::optional<std::set<uint32_t>> possible_types() const override { return tile_->possible_types(); }
 
 private:

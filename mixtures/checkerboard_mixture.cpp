@@ -36,15 +36,18 @@ Imath::M33d rotation_in_degrees(const Imath::V3d& angles)
     const auto [cx, sx] = cosine_and_sine(angles.x);
     const auto [cy, sy] = cosine_and_sine(angles.y);
     const auto [cz, sz] = cosine_and_sine(angles.z);
-    const Imath::M33d x(1, 0, 0, 0, cx, sx, 0, -sx, cx), y(cy, 0, -sy, 0, 1, 0, sy, 0, cy), z(cz, sz, 0, -sz, cz, 0, 0, 0, 1);
+    const Imath::M33d x(1, 0, 0, 0, cx, sx, 0, -sx, cx), y(cy, 0, -sy, 0, 1, 0, sy, 0, cy),
+        z(cz, sz, 0, -sz, cz, 0, 0, 0, 1);
     return x * y * z;
 }
 
 CheckerboardMixture::CheckerboardMixture(const Board& board, std::vector<uint32_t> types, const Imath::V3d& origin)
-    : shift_(origin - board.offset), cell_(board.cell), rotated_(board.rotation != Imath::V3d(0)), types_(std::move(types))
+    : shift_(origin - board.offset), cell_(board.cell), rotated_(board.rotation != Imath::V3d(0)),
+      types_(std::move(types))
 {
     const Imath::M33d rotation = rotation_in_degrees(board.rotation);
-    for (int a = 0; a < 3; ++a) axis_[a] = Imath::V3d(rotation[a][0], rotation[a][1], rotation[a][2]); // the board's axes in space
+    for (int a = 0; a < 3; ++a)
+        axis_[a] = Imath::V3d(rotation[a][0], rotation[a][1], rotation[a][2]); // the board's axes in space
 }
 
 uint32_t CheckerboardMixture::type(uint64_t, const Imath::V3f& position) const

@@ -85,8 +85,10 @@ std::string intervals(const std::vector<std::string>& types, const std::vector<d
 {
     std::vector<std::string> words;
     for (size_t k = 0; k < types.size(); ++k) {
-        if (k < thresholds.size()) words.push_back(fmt::format("{} {} {}", types[k], k == 0 ? "below" : "up to", thresholds[k]));
-        else words.push_back(types[k] + (k > 0 ? " from there on" : " everywhere"));
+        if (k < thresholds.size())
+            words.push_back(fmt::format("{} {} {}", types[k], k == 0 ? "below" : "up to", thresholds[k]));
+        else
+            words.push_back(types[k] + (k > 0 ? " from there on" : " everywhere"));
     }
     return fmt::format("{}", fmt::join(words, ", "));
 }
@@ -94,7 +96,8 @@ std::string intervals(const std::vector<std::string>& types, const std::vector<d
 std::string noise_words(const NoiseOptions& noise)
 {
     std::string words = fmt::format("{} wide", vector_words(noise.scale));
-    if (noise.octaves > 1) words += fmt::format(", {} octaves (lacunarity {}, gain {})", noise.octaves, noise.lacunarity, noise.gain);
+    if (noise.octaves > 1)
+        words += fmt::format(", {} octaves (lacunarity {}, gain {})", noise.octaves, noise.lacunarity, noise.gain);
     if (noise.offset != Imath::V3d(0)) words += fmt::format(", offset {}", vector_words(noise.offset));
     if (noise.seed != 0) words += fmt::format(", seed {}", noise.seed);
     return words;
@@ -117,22 +120,26 @@ struct Words {
     std::string operator()(const RandomDescription& mixture) const
     {
         const char* by = mixture.by == RandomBy::volume ? "volume" : "number";
-        return fmt::format("at random, sphere by sphere, by {}: {} (seed {})", by, list_of(mixture.types, mixture.weights), mixture.seed);
+        return fmt::format("at random, sphere by sphere, by {}: {} (seed {})", by,
+                           list_of(mixture.types, mixture.weights), mixture.seed);
     }
 
     std::string operator()(const PerlinDescription& mixture) const
     {
         const bool fixed = mixture.fraction.empty();
         return fmt::format("in patches of noise {}: {}", noise_words(mixture.noise),
-                           fixed ? intervals(mixture.types, mixture.threshold) : list_of(mixture.types, mixture.fraction));
+                           fixed ? intervals(mixture.types, mixture.threshold)
+                                 : list_of(mixture.types, mixture.fraction));
     }
 
     std::string operator()(const CheckerboardDescription& mixture) const
     {
         const std::string cell = vector_words(mixture.board.cell);
         std::string words = fmt::format("a checkerboard of cells of {}: {}", cell, fmt::join(mixture.types, ", "));
-        if (mixture.board.offset != Imath::V3d(0)) words += fmt::format("; a corner at {}", vector_words(mixture.board.offset));
-        if (mixture.board.rotation != Imath::V3d(0)) words += fmt::format("; turned by {} degrees", vector_words(mixture.board.rotation));
+        if (mixture.board.offset != Imath::V3d(0))
+            words += fmt::format("; a corner at {}", vector_words(mixture.board.offset));
+        if (mixture.board.rotation != Imath::V3d(0))
+            words += fmt::format("; turned by {} degrees", vector_words(mixture.board.rotation));
         return words;
     }
 
@@ -142,9 +149,11 @@ struct Words {
         for (size_t k = 0; k < mixture.types.size(); ++k)
             layers.push_back(fmt::format("{} {}", mixture.thicknesses[k], mixture.types[k]));
         const Imath::V3d& d = mixture.direction;
-        std::string words = fmt::format("layers along ({}, {}, {}) from {}: {}, ", d.x, d.y, d.z, mixture.offset, fmt::join(layers, ", "));
+        std::string words = fmt::format("layers along ({}, {}, {}) from {}: {}, ", d.x, d.y, d.z, mixture.offset,
+                                        fmt::join(layers, ", "));
         words += mixture.repeat ? "again and again" : "the first and the last without end";
-        if (mixture.jitter != 0) words += fmt::format("; moved by up to {} by noise {}", mixture.jitter, noise_words(mixture.noise));
+        if (mixture.jitter != 0)
+            words += fmt::format("; moved by up to {} by noise {}", mixture.jitter, noise_words(mixture.noise));
         return words;
     }
 
@@ -157,7 +166,8 @@ struct Words {
     {
         std::string words = fmt::format("at random by concentrations in space (seed {})", mixture.seed);
         for (const auto& field : mixture.fields)
-            words += fmt::format("\n{}  {}: {}{}{}", indent, field.type, field.file.string(), field.grid.empty() ? "" : ":", field.grid);
+            words += fmt::format("\n{}  {}: {}{}{}", indent, field.type, field.file.string(),
+                                 field.grid.empty() ? "" : ":", field.grid);
         if (!mixture.rest.empty()) words += fmt::format("\n{}  {}: what is left", indent, mixture.rest);
         return words;
     }

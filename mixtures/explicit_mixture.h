@@ -25,14 +25,15 @@ public:
     uint64_t size() const { return wide_.empty() ? narrow_.size() : wide_.size(); }
 
 private:
-    std::vector<uint8_t> narrow_;  // used while every type fits
-    std::vector<uint16_t> wide_;   // else
+    std::vector<uint8_t> narrow_; // used while every type fits
+    std::vector<uint16_t> wide_; // else
 };
 
 /// The explicit mixture of a frame: its own type numbers, through `type_map` (file's number -> grain type).
 ///
 /// Throws InputError naming `place` when a sphere has a type the map lacks.
-std::unique_ptr<ExplicitMixture> mixture_from_frame(const ParticleFrame& frame, const std::map<int32_t, uint32_t>& type_map,
+std::unique_ptr<ExplicitMixture> mixture_from_frame(const ParticleFrame& frame,
+                                                    const std::map<int32_t, uint32_t>& type_map,
                                                     const std::string& place);
 
 } // namespace scree

@@ -33,10 +33,13 @@ openvdb::FloatGrid::ConstPtr read_field(const ConcentrationField& field)
             names.push_back(name.gridName());
             if (!field.grid.empty() && name.gridName() != field.grid) continue;
             if (const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid(name.gridName()))) return grid;
-            if (!field.grid.empty()) throw InputError(place, "the grid '" + field.grid + "' of another kind", "a grid of floats");
+            if (!field.grid.empty())
+                throw InputError(place, "the grid '" + field.grid + "' of another kind", "a grid of floats");
         }
-        if (field.grid.empty()) throw InputError(place, "no grid of floats", "a concentration as an OpenVDB float grid");
-        throw InputError(place, "no grid '" + field.grid + "'", fmt::format("one of the file's grids: {}", fmt::join(names, ", ")));
+        if (field.grid.empty())
+            throw InputError(place, "no grid of floats", "a concentration as an OpenVDB float grid");
+        throw InputError(place, "no grid '" + field.grid + "'",
+                         fmt::format("one of the file's grids: {}", fmt::join(names, ", ")));
     } catch (const openvdb::Exception& failure) {
         throw InputError(place, failure.what(), "an OpenVDB file with a float grid");
     }

@@ -20,9 +20,9 @@ struct ConcentrationField {
 
 /// The type is drawn by the hash of the sphere's id, with the concentrations at its centre as chances.
 ///
-/// c_k: trilinear between voxel centres, negative or not finite ones as 0. With a `rest` type the chance of k is c_k, of
-/// the rest 1 - sum c, and where the sum is above 1, c_k over the sum. Without one it is c_k over the sum, and where all
-/// are 0 the first field's type. u = unit_double(hash_index(id, seed, stream)) chooses as in RandomMixture.
+/// c_k: trilinear between voxel centres, negative or not finite ones as 0. With a `rest` type the chance of k is c_k,
+/// of the rest 1 - sum c, and where the sum is above 1, c_k over the sum. Without one it is c_k over the sum, and where
+/// all are 0 the first field's type. u = unit_double(hash_index(id, seed, stream)) chooses as in RandomMixture.
 class GridMixture final : public Mixture {
 public:
     struct Options {

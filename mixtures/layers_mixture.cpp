@@ -6,13 +6,8 @@
 namespace scree {
 
 LayersMixture::LayersMixture(const Layers& layers, std::vector<uint32_t> types, const Imath::V3d& origin)
-    : direction_(layers.direction.normalized()),
-      origin_(origin),
-      offset_(layers.offset),
-      jitter_(layers.jitter),
-      repeat_(layers.repeat),
-      noise_(layers.noise),
-      types_(std::move(types))
+    : direction_(layers.direction.normalized()), origin_(origin), offset_(layers.offset), jitter_(layers.jitter),
+      repeat_(layers.repeat), noise_(layers.noise), types_(std::move(types))
 {
     for (const double t : layers.thicknesses) {
         if (period_ > 0) ends_.push_back(period_);

@@ -1,10 +1,10 @@
 #include "mixtures/make_mixture.h"
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "mixtures/blend_mixture.h"
 #include "mixtures/explicit_mixture.h"
 #include "mixtures/grid_mixture.h"
-#include "base/hash.h"
 #include "mixtures/layers_mixture.h"
 #include "mixtures/perlin_mixture.h"
 #include "mixtures/random_mixture.h"
@@ -45,7 +45,8 @@ struct Maker {
     }
     const ParticleFrame& spheres(const char* kind) const
     {
-        if (!context.frame) throw InputError(place, std::string("a mixture of kind ") + kind, "a scene that lists its spheres", "");
+        if (!context.frame)
+            throw InputError(place, std::string("a mixture of kind ") + kind, "a scene that lists its spheres", "");
         return *context.frame;
     }
     std::unique_ptr<Mixture> for_spheres(std::unique_ptr<Mixture> mixture) const
@@ -71,10 +72,13 @@ struct Maker {
             for (const int32_t number : frame.type) {
                 if (!met.insert(number).second) continue;
                 const auto name = names.find(std::to_string(number));
-                if (name != names.end()) map[number] = type_of(name->second);
-                else if (names.empty() && types.size() == 1) map[number] = 0;
+                if (name != names.end())
+                    map[number] = type_of(name->second);
+                else if (names.empty() && types.size() == 1)
+                    map[number] = 0;
             }
-            return for_spheres(mixture_from_frame(frame, map, mixture.types.empty() ? context.place : place + "/types"));
+            return for_spheres(
+                mixture_from_frame(frame, map, mixture.types.empty() ? context.place : place + "/types"));
         }
         const TypeTable table = read_type_table(mixture.table, mixture.column, mixture.id);
         std::vector<uint32_t> map;
@@ -85,8 +89,10 @@ struct Maker {
             } else if (std::ranges::find(types, word) != types.end()) {
                 map.push_back(type_of(word));
             } else {
-                throw InputError(mixture.table.string(), "the type " + word, "a type that \"types\" names, or a grain type itself",
-                                 fmt::format("e.g. \"types\": {{\"{}\": \"{}\"}} in {}", word, types.empty() ? "glass" : types[0], place));
+                throw InputError(mixture.table.string(), "the type " + word,
+                                 "a type that \"types\" names, or a grain type itself",
+                                 fmt::format("e.g. \"types\": {{\"{}\": \"{}\"}} in {}", word,
+                                             types.empty() ? "glass" : types[0], place));
             }
         }
         return for_spheres(mixture_from_table(table, map, frame, mixture.table.string()));
@@ -96,7 +102,8 @@ struct Maker {
     {
         const std::vector<uint32_t> numbers = types_of(mixture.types);
         if (mixture.by == RandomBy::volume && context.frame && !context.tiled) {
-            std::vector<uint32_t> chosen = choose_by_volume(context.frame->radius, ids, mixture.weights, mixture.seed, stream);
+            std::vector<uint32_t> chosen =
+                choose_by_volume(context.frame->radius, ids, mixture.weights, mixture.seed, stream);
             for (uint32_t& type : chosen) type = numbers[type];
             return std::make_unique<ExplicitMixture>(chosen);
         }
@@ -110,7 +117,8 @@ struct Maker {
             double all = 0, sum = 0;
             std::vector<double> below;
             for (const double f : mixture.fraction) all += f;
-            for (size_t k = 0; k + 1 < mixture.fraction.size(); ++k) below.push_back((sum += mixture.fraction[k]) / all);
+            for (size_t k = 0; k + 1 < mixture.fraction.size(); ++k)
+                below.push_back((sum += mixture.fraction[k]) / all);
             thresholds = FractalNoise(mixture.noise).quantiles(below);
         }
         return std::make_unique<PerlinMixture>(mixture.noise, types_of(mixture.types), thresholds, origin);
@@ -142,7 +150,8 @@ struct Maker {
     std::unique_ptr<Mixture> operator()(const GridDescription& mixture) const
     {
         GridMixture::Options options;
-        for (const auto& field : mixture.fields) options.fields.push_back({type_of(field.type), field.file, field.grid});
+        for (const auto& field : mixture.fields)
+            options.fields.push_back({type_of(field.type), field.file, field.grid});
         if (!mixture.rest.empty()) options.rest = type_of(mixture.rest);
         options.seed = mixture.seed;
         options.stream = stream;
@@ -153,7 +162,12 @@ struct Maker {
     {
         std::vector<std::unique_ptr<Mixture>> mixtures;
         for (size_t k = 0; k < mixture.mixtures.size(); ++k) {
-            Maker inner{context, types, ids, origin, mix64(stream + (k + 1) * 0x9e3779b97f4a7c15ull), mixture.mixtures[k].place};
+            Maker inner{context,
+                        types,
+                        ids,
+                        origin,
+                        mix64(stream + (k + 1) * 0x9e3779b97f4a7c15ull),
+                        mixture.mixtures[k].place};
             mixtures.push_back(std::visit(inner, mixture.mixtures[k].kind));
         }
         const Maker chooser{context, mixture.names, ids, origin, stream, mixture.by[0].place};

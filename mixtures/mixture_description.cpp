@@ -35,7 +35,8 @@ void add_types(const MixtureDescription& mixture, bool chosen_only, std::vector<
                 for (size_t k = 0; k < kind.types.size(); ++k) {
                     bool never = false;
                     if constexpr (std::is_same_v<Kind, RandomDescription>) never = kind.weights[k] == 0;
-                    if constexpr (std::is_same_v<Kind, PerlinDescription>) never = !kind.fraction.empty() && kind.fraction[k] == 0;
+                    if constexpr (std::is_same_v<Kind, PerlinDescription>)
+                        never = !kind.fraction.empty() && kind.fraction[k] == 0;
                     if (!never || !chosen_only) add(names, kind.types[k]);
                 }
             }
@@ -57,7 +58,8 @@ bool depends_on_frame(const MixtureDescription& mixture)
     if (const auto* blend = std::get_if<BlendDescription>(&mixture.kind))
         return depends_on_frame(blend->by[0]) || std::ranges::any_of(blend->mixtures, depends_on_frame);
     if (const auto* random = std::get_if<RandomDescription>(&mixture.kind)) return random->by == RandomBy::volume;
-    return !std::holds_alternative<SingleDescription>(mixture.kind) && !std::holds_alternative<ExplicitDescription>(mixture.kind) &&
+    return !std::holds_alternative<SingleDescription>(mixture.kind) &&
+           !std::holds_alternative<ExplicitDescription>(mixture.kind) &&
            !std::holds_alternative<RadiusDescription>(mixture.kind);
 }
 

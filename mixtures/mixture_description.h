@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mixtures/checkerboard_mixture.h"
 #include "base/noise.h"
+#include "mixtures/checkerboard_mixture.h"
 
 #include <filesystem>
 #include <map>
@@ -22,9 +22,9 @@ struct SingleDescription {
 /// Each sphere's own type number, out of its dump or out of a table on disk.
 struct ExplicitDescription {
     std::map<std::string, std::string> types; ///< number (or word) there -> grain type; empty: as the assembly says
-    std::filesystem::path table;              ///< .csv (also packed) or .vdb; empty: the dump itself
-    std::string column = "type";              ///< of the table, or attribute
-    std::string id = "id";                    ///< column of ids; spheres go by row in a table that lacks it
+    std::filesystem::path table; ///< .csv (also packed) or .vdb; empty: the dump itself
+    std::string column = "type"; ///< of the table, or attribute
+    std::string id = "id"; ///< column of ids; spheres go by row in a table that lacks it
 };
 
 enum class RandomBy { number, volume };
@@ -54,7 +54,7 @@ struct LayersDescription {
     Imath::V3d direction{0, 0, 1};
     double offset = 0;
     bool repeat = true;
-    double jitter = 0;  ///< amplitude, in units of length; 0: plane faces
+    double jitter = 0; ///< amplitude, in units of length; 0: plane faces
     NoiseOptions noise; ///< of the jitter
 };
 
@@ -84,7 +84,7 @@ struct BlendDescription {
 
 /// In which frame of a dump a sphere's type is decided, when the mixture depends on more than its id.
 struct DecisionFrame {
-    bool each = false;  ///< anew in every frame
+    bool each = false; ///< anew in every frame
     int64_t frame = -1; ///< else in this one; from the end when negative
     bool operator==(const DecisionFrame&) const = default;
 };
@@ -95,15 +95,15 @@ struct MixtureDescription {
                  LayersDescription, RadiusDescription, GridDescription, BlendDescription>
         kind;
     DecisionFrame decided; ///< read at the root only
-    std::string place;     ///< "file: /json/path", for messages
+    std::string place; ///< "file: /json/path", for messages
 };
 
 /// The kinds' names, in the order of the variant.
-inline const std::vector<std::string> mixture_kinds{"single",       "explicit", "random", "perlin", "checkerboard",
-                                                    "layers", "radius", "grid",   "blend"};
+inline const std::vector<std::string> mixture_kinds{"single", "explicit", "random", "perlin", "checkerboard",
+                                                    "layers", "radius",   "grid",   "blend"};
 
-/// The grain types that the mixture names, in order and each once; `chosen_only`: without those of weight or fraction 0.
-/// An explicit mixture without a map of its own adds none.
+/// The grain types that the mixture names, in order and each once; `chosen_only`: without those of weight or fraction
+/// 0. An explicit mixture without a map of its own adds none.
 std::vector<std::string> types_named(const MixtureDescription& mixture, bool chosen_only = false);
 
 /// Whether a sphere's type can change from frame to frame: it depends on places, or on which spheres there are.

@@ -19,9 +19,10 @@ std::unique_ptr<ExplicitMixture> evaluated(const Mixture& mixture, const Particl
 
 } // namespace
 
-MixtureSeries::MixtureSeries(MixtureDescription description, std::vector<std::string> types, std::map<int32_t, std::string> file_types,
-                             std::string place)
-    : description_(std::move(description)), types_(std::move(types)), file_types_(std::move(file_types)), place_(std::move(place))
+MixtureSeries::MixtureSeries(MixtureDescription description, std::vector<std::string> types,
+                             std::map<int32_t, std::string> file_types, std::string place)
+    : description_(std::move(description)), types_(std::move(types)), file_types_(std::move(file_types)),
+      place_(std::move(place))
 {
 }
 

@@ -14,13 +14,15 @@ namespace scree {
 class MixtureSeries {
 public:
     /// types, file_types, place: as in MixtureContext.
-    MixtureSeries(MixtureDescription description, std::vector<std::string> types, std::map<int32_t, std::string> file_types = {},
-                  std::string place = "");
+    MixtureSeries(MixtureDescription description, std::vector<std::string> types,
+                  std::map<int32_t, std::string> file_types = {}, std::string place = "");
 
-    /// Which of `frame_count` frames decides, when one does and there are several. Throws InputError when it does not exist.
+    /// Which of `frame_count` frames decides, when one does and there are several. Throws InputError when it does not
+    /// exist.
     std::optional<size_t> deciding_frame(size_t frame_count) const;
 
-    /// Hands in that frame; without it every frame decides for itself. Spheres without ids from the file are not followed.
+    /// Hands in that frame; without it every frame decides for itself. Spheres without ids from the file are not
+    /// followed.
     void decide(const ParticleFrame& frame);
     bool decided() const { return decided_; }
 
@@ -38,7 +40,7 @@ private:
     std::map<int32_t, std::string> file_types_;
     std::string place_;
     bool decided_ = false;
-    std::vector<uint64_t> ids_;          // ascending
+    std::vector<uint64_t> ids_; // ascending
     std::unique_ptr<const Mixture> kept_; // types of ids_, by row
 };
 

@@ -107,7 +107,8 @@ double spacing_of(const ParticleFrame& frame, const Bounds& bounds)
     double volume = 1;
     for (int a = 0; a < 3; ++a) volume *= std::max(extent[a], least);
     const double share = std::cbrt(volume / static_cast<double>(frame.size()));
-    return std::clamp(2 * radius, share / 4, share); // not far below the share, so that cells are not many more than spheres
+    return std::clamp(2 * radius, share / 4,
+                      share); // not far below the share, so that cells are not many more than spheres
 }
 
 struct Sums {
@@ -116,7 +117,8 @@ struct Sums {
 };
 
 /// The ratio of sums and the jackknife's interval over the boxes that hold spheres.
-template <class Part, class All> FractionEstimate jackknife(const std::vector<Sums>& boxes, const Part& part, const All& all)
+template <class Part, class All>
+FractionEstimate jackknife(const std::vector<Sums>& boxes, const Part& part, const All& all)
 {
     double part_sum = 0, all_sum = 0, n = 0;
     for (const Sums& box : boxes) {
@@ -139,7 +141,8 @@ template <class Part, class All> FractionEstimate jackknife(const std::vector<Su
     return estimate;
 }
 
-void add_fractions(const ParticleFrame& frame, std::span<const uint32_t> types, const Bounds& bounds, PatternStatistics& statistics)
+void add_fractions(const ParticleFrame& frame, std::span<const uint32_t> types, const Bounds& bounds,
+                   PatternStatistics& statistics)
 {
     constexpr int edge = 5;
     const size_t n = statistics.types.size();
@@ -166,8 +169,10 @@ void add_fractions(const ParticleFrame& frame, std::span<const uint32_t> types, 
     }
     for (size_t k = 0; k < n; ++k) {
         PatternStatistics::OfType& type = statistics.types[k];
-        type.by_number = jackknife(boxes, [k](const Sums& s) { return s.count[k]; }, [](const Sums& s) { return s.all_count; });
-        type.by_volume = jackknife(boxes, [k](const Sums& s) { return s.volume[k]; }, [](const Sums& s) { return s.all_volume; });
+        type.by_number = jackknife(
+            boxes, [k](const Sums& s) { return s.count[k]; }, [](const Sums& s) { return s.all_count; });
+        type.by_volume = jackknife(
+            boxes, [k](const Sums& s) { return s.volume[k]; }, [](const Sums& s) { return s.all_volume; });
     }
 }
 
@@ -189,7 +194,8 @@ void add_correlation(const ParticleFrame& frame, std::span<const uint32_t> types
             const auto random = [&](uint64_t k) { return unit_double(hash_index(4 * t + k, seed, stream)); };
             const auto i = static_cast<size_t>(random(0) * static_cast<double>(frame.size()));
             const double z = 2 * random(1) - 1, angle = 2 * std::numbers::pi * random(2), s = std::sqrt(1 - z * z);
-            const Imath::V3d place = frame.position[i] + distance * Imath::V3d(s * std::cos(angle), s * std::sin(angle), z);
+            const Imath::V3d place =
+                frame.position[i] + distance * Imath::V3d(s * std::cos(angle), s * std::sin(angle), z);
             const auto j = cells.nearest(place, i);
             if (!j) continue;
             pairs += 1;
@@ -198,7 +204,8 @@ void add_correlation(const ParticleFrame& frame, std::span<const uint32_t> types
         }
         if (pairs < 200) continue;
         const double p = alike / pairs;
-        statistics.correlation.push_back({travelled / pairs, (p - same) / (1 - same), std::sqrt(p * (1 - p) / pairs) / (1 - same)});
+        statistics.correlation.push_back(
+            {travelled / pairs, (p - same) / (1 - same), std::sqrt(p * (1 - p) / pairs) / (1 - same)});
     }
     constexpr double target = 1 / std::numbers::e;
     double before_distance = 0, before = 1;
@@ -218,7 +225,8 @@ void add_correlation(const ParticleFrame& frame, std::span<const uint32_t> types
 
 } // namespace
 
-PatternStatistics pattern_statistics(const ParticleFrame& frame, std::span<const uint32_t> types, size_t type_count, size_t pairs)
+PatternStatistics pattern_statistics(const ParticleFrame& frame, std::span<const uint32_t> types, size_t type_count,
+                                     size_t pairs)
 {
     PatternStatistics statistics;
     statistics.types.resize(type_count);

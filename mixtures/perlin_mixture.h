@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mixtures/mixture.h"
 #include "base/noise.h"
+#include "mixtures/mixture.h"
 
 #include <vector>
 
@@ -12,7 +12,8 @@ class PerlinMixture final : public Mixture {
 public:
     /// types[k] lies below thresholds[k] (ascending, one fewer than types), the last above all of them. origin: the
     /// place that positions are relative to.
-    PerlinMixture(const NoiseOptions& noise, std::vector<uint32_t> types, std::vector<double> thresholds, const Imath::V3d& origin)
+    PerlinMixture(const NoiseOptions& noise, std::vector<uint32_t> types, std::vector<double> thresholds,
+                  const Imath::V3d& origin)
         : noise_(noise), origin_(origin), types_(std::move(types)), thresholds_(std::move(thresholds))
     {
     }
@@ -24,7 +25,10 @@ public:
         while (k < thresholds_.size() && value >= thresholds_[k]) ++k;
         return types_[k];
     }
-    std::optional<std::set<uint32_t>> possible_types() const override { return std::set<uint32_t>(types_.begin(), types_.end()); }
+    std::optional<std::set<uint32_t>> possible_types() const override
+    {
+        return std::set<uint32_t>(types_.begin(), types_.end());
+    }
 
 private:
     FractalNoise noise_;

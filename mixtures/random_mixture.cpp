@@ -30,7 +30,8 @@ struct RankedSphere {
 
 } // namespace
 
-RandomMixture::RandomMixture(std::vector<uint32_t> types, std::span<const double> weights, uint64_t seed, uint64_t stream, SphereIds ids)
+RandomMixture::RandomMixture(std::vector<uint32_t> types, std::span<const double> weights, uint64_t seed,
+                             uint64_t stream, SphereIds ids)
     : key_(hash_key(seed, stream)), ids_(std::move(ids))
 {
     const double all = sum_of_weights(weights);
@@ -54,15 +55,16 @@ uint32_t RandomMixture::type(uint64_t index, const Imath::V3f&) const
     return types_[static_cast<size_t>(std::upper_bound(below_.begin(), below_.end(), u) - below_.begin())];
 }
 
-std::vector<uint32_t> choose_by_volume(std::span<const float> radii, const SphereIds& ids, std::span<const double> weights,
-                                       uint64_t seed, uint64_t stream)
+std::vector<uint32_t> choose_by_volume(std::span<const float> radii, const SphereIds& ids,
+                                       std::span<const double> weights, uint64_t seed, uint64_t stream)
 {
     if (weights.size() > 1024) throw std::invalid_argument("at most 1024 types by volume");
     const double weight_sum = sum_of_weights(weights);
     const uint64_t key = hash_key(seed, stream);
     std::vector<RankedSphere> order(radii.size());
     double all = 0;
-    for (size_t i = 0; i < radii.size(); ++i) order[i] = {radii[i], static_cast<uint32_t>(hash_with_key(ids[i], key) >> 32), i};
+    for (size_t i = 0; i < radii.size(); ++i)
+        order[i] = {radii[i], static_cast<uint32_t>(hash_with_key(ids[i], key) >> 32), i};
     std::ranges::sort(order, [](const RankedSphere& a, const RankedSphere& b) {
         if (a.radius != b.radius) return a.radius > b.radius;
         return a.hash != b.hash ? a.hash < b.hash : a.row < b.row;

@@ -131,7 +131,8 @@ PerlinDescription read_perlin(JsonObject& object, const Scope& scope)
     const auto threshold = object.find("threshold"), fraction = object.find("fraction");
     if (threshold && fraction) object.value().fail("either 'threshold' or 'fraction'");
     if (threshold) {
-        mixture.threshold = read_ascending(*threshold, mixture.types.size() - 1, -std::numeric_limits<double>::infinity());
+        mixture.threshold =
+            read_ascending(*threshold, mixture.types.size() - 1, -std::numeric_limits<double>::infinity());
         if (mixture.types.size() == 1) mixture.fraction = {1};
     } else if (fraction && fraction->is_number() && mixture.types.size() == 2) {
         const double first = fraction->number(0, 1);
@@ -163,13 +164,15 @@ LayersDescription read_layers(JsonObject& object, const Scope& scope)
     LayersDescription mixture;
     mixture.types = read_types(object, scope);
     const JsonValue thicknesses = object.require("thicknesses");
-    if (thicknesses.is_number()) mixture.thicknesses.assign(mixture.types.size(), read_positive(thicknesses));
+    if (thicknesses.is_number())
+        mixture.thicknesses.assign(mixture.types.size(), read_positive(thicknesses));
     else
         for (const JsonValue& item : thicknesses.array(mixture.types.size(), mixture.types.size()))
             mixture.thicknesses.push_back(read_positive(item));
     if (const auto direction = object.find("direction")) {
         mixture.direction = direction->vec3();
-        if (!(mixture.direction.length() > 0) || !std::isfinite(mixture.direction.length())) direction->fail("a direction that is not 0");
+        if (!(mixture.direction.length() > 0) || !std::isfinite(mixture.direction.length()))
+            direction->fail("a direction that is not 0");
     }
     if (const auto offset = object.find("offset")) mixture.offset = offset->number();
     if (const auto repeat = object.find("repeat")) mixture.repeat = repeat->boolean();
@@ -254,8 +257,10 @@ void read_decision(JsonObject& object, const Scope& scope, DecisionFrame& decide
     const auto frame = object.find("frame");
     if (!frame) return;
     decided = {};
-    if (frame->is_string()) decided.each = frame->choice({"each"}) == 0;
-    else decided.frame = frame->integer(-largest_seed, largest_seed);
+    if (frame->is_string())
+        decided.each = frame->choice({"each"}) == 0;
+    else
+        decided.frame = frame->integer(-largest_seed, largest_seed);
 }
 
 MixtureDescription read_any(const JsonValue& json, const Scope& scope)
@@ -293,7 +298,10 @@ MixtureDescription read_any(const JsonValue& json, const Scope& scope)
 
 } // namespace
 
-MixtureDescription read_mixture(const JsonValue& json, const std::vector<std::string>& types) { return read_any(json, {types, {}}); }
+MixtureDescription read_mixture(const JsonValue& json, const std::vector<std::string>& types)
+{
+    return read_any(json, {types, {}});
+}
 
 MixtureDescription read_mixture_file(const std::filesystem::path& file, const std::vector<std::string>& types)
 {

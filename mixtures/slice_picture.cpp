@@ -48,8 +48,8 @@ struct Panel {
     int x, y, width, height, right, up, normal;
 };
 
-void draw_panel(Picture& picture, const Panel& panel, const ParticleFrame& frame, std::span<const uint32_t> types, const Bounds& bounds,
-                const Imath::V3d& at, double scale)
+void draw_panel(Picture& picture, const Panel& panel, const ParticleFrame& frame, std::span<const uint32_t> types,
+                const Bounds& bounds, const Imath::V3d& at, double scale)
 {
     constexpr std::array<const char*, 3> axis{"x", "y", "z"};
     picture.fill_rectangle(panel.x, panel.y, panel.width, panel.height, ground);
@@ -60,7 +60,8 @@ void draw_panel(Picture& picture, const Panel& panel, const ParticleFrame& frame
         const Imath::V3d& p = frame.position[i];
         const double d = p[panel.normal] - at[panel.normal], r = frame.radius[i];
         if (!(std::abs(d) < r)) continue;
-        picture.draw_disc(to_x(p[panel.right]), to_y(p[panel.up]), std::sqrt(r * r - d * d) * scale, type_color(types[i]), clip);
+        picture.draw_disc(to_x(p[panel.right]), to_y(p[panel.up]), std::sqrt(r * r - d * d) * scale,
+                          type_color(types[i]), clip);
     }
     picture.draw_frame(panel.x, panel.y, panel.width, panel.height, ink);
     // Where the other two planes cut this one.
@@ -70,8 +71,8 @@ void draw_panel(Picture& picture, const Panel& panel, const ParticleFrame& frame
         picture.fill_rectangle(panel.x + panel.width + k, cut_y, 1, 1, ink);
     }
     const auto name = [&](int a) { return axis[static_cast<size_t>(a)]; };
-    const std::string text =
-        fmt::format("{} = {:.4g}: {} right, {} up", name(panel.normal), at[panel.normal], name(panel.right), name(panel.up));
+    const std::string text = fmt::format("{} = {:.4g}: {} right, {} up", name(panel.normal), at[panel.normal],
+                                         name(panel.right), name(panel.up));
     picture.draw_text(panel.x, panel.y - label + 3, text, ink);
 }
 
@@ -119,10 +120,17 @@ std::vector<std::pair<uint32_t, std::string>> legend_of(const ParticleFrame& fra
 ScreenColor type_color(size_t k)
 {
     // Okabe and Ito 2008, without black; then hues that turn by the golden angle.
-    constexpr std::array<ScreenColor, 8> first{
-        {{230, 159, 0}, {0, 114, 178}, {0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {213, 94, 0}, {240, 228, 66}, {120, 120, 120}}};
+    constexpr std::array<ScreenColor, 8> first{{{230, 159, 0},
+                                                {0, 114, 178},
+                                                {0, 158, 115},
+                                                {204, 121, 167},
+                                                {86, 180, 233},
+                                                {213, 94, 0},
+                                                {240, 228, 66},
+                                                {120, 120, 120}}};
     if (k < first.size()) return first[k];
-    const double hue = std::fmod(static_cast<double>(k) * 137.508, 360.0) / 60, low = 0.35 + 0.15 * static_cast<double>(k % 3);
+    const double hue = std::fmod(static_cast<double>(k) * 137.508, 360.0) / 60,
+                 low = 0.35 + 0.15 * static_cast<double>(k % 3);
     const auto channel = [&](double shift) {
         const double h = std::fmod(hue + shift, 6.0), t = std::clamp(std::abs(h - 3) - 1, 0.0, 1.0);
         return static_cast<uint8_t>(255 * (low * 0.7 + (0.9 - low * 0.7) * t));
@@ -130,8 +138,8 @@ ScreenColor type_color(size_t k)
     return {channel(0), channel(4), channel(2)};
 }
 
-Picture slice_picture(const ParticleFrame& frame, std::span<const uint32_t> types, const std::vector<std::string>& names,
-                      const std::string& title, const SliceOptions& options)
+Picture slice_picture(const ParticleFrame& frame, std::span<const uint32_t> types,
+                      const std::vector<std::string>& names, const std::string& title, const SliceOptions& options)
 {
     const Bounds bounds = bounds_of(frame);
     const Imath::V3d at = options.at.value_or(bounds.middle), extent = bounds.hi - bounds.lo;
@@ -147,7 +155,8 @@ Picture slice_picture(const ParticleFrame& frame, std::span<const uint32_t> type
     const int top = margin + line + label + 6;
     const int legend_height = static_cast<int>(legend.size()) * line + 60;
     const int first_row = std::max(hy, legend_height);
-    const int width = std::max({margin + wx + gap + std::max(wy, legend_width) + margin, 2 * margin + Picture::text_width(title)});
+    const int width =
+        std::max({margin + wx + gap + std::max(wy, legend_width) + margin, 2 * margin + Picture::text_width(title)});
     Picture picture(width, top + first_row + gap + hz + margin, paper);
     picture.draw_text(margin, margin - 4, title, ink);
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "ingest/particles/particle_frame.h"
 #include "base/drawing/picture.h"
+#include "ingest/particles/particle_frame.h"
 
 #include <optional>
 #include <span>
@@ -12,7 +12,7 @@ namespace scree {
 
 struct SliceOptions {
     std::optional<Imath::V3d> at; ///< where the three planes meet, in the dump's frame; else the mean of the centres
-    int width = 1200;             ///< of the picture in pixels, about
+    int width = 1200; ///< of the picture in pixels, about
 };
 
 /// The colour of grain type number k in diagrams; the first eight differ also for most who see colours otherwise.
@@ -22,7 +22,8 @@ ScreenColor type_color(size_t k);
 /// it; with a legend of the types that occur (fractions by number and volume) and a scale bar.
 ///
 /// types[i] is the type of sphere i, names[type] its name. title: a line on top.
-Picture slice_picture(const ParticleFrame& frame, std::span<const uint32_t> types, const std::vector<std::string>& names,
-                      const std::string& title, const SliceOptions& options = {});
+Picture slice_picture(const ParticleFrame& frame, std::span<const uint32_t> types,
+                      const std::vector<std::string>& names, const std::string& title,
+                      const SliceOptions& options = {});
 
 } // namespace scree

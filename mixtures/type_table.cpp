@@ -41,7 +41,8 @@ const char* find_byte(const char* from, const char* end, char byte)
 std::string_view trimmed(std::string_view field)
 {
     while (!field.empty() && (field.front() == ' ' || field.front() == '"')) field.remove_prefix(1);
-    while (!field.empty() && (field.back() == ' ' || field.back() == '"' || field.back() == '\r')) field.remove_suffix(1);
+    while (!field.empty() && (field.back() == ' ' || field.back() == '"' || field.back() == '\r'))
+        field.remove_suffix(1);
     return field;
 }
 
@@ -61,7 +62,8 @@ public:
         const auto [entry, fresh] = codes_.try_emplace(name, static_cast<uint16_t>(words_.size()));
         if (fresh) {
             if (words_.size() == 65535)
-                throw InputError(fmt::format("{}:{}", place_, line), "more than 65535 different types", "a column of types");
+                throw InputError(fmt::format("{}:{}", place_, line), "more than 65535 different types",
+                                 "a column of types");
             words_.push_back(name);
         }
         met = {std::string(word), entry->second};
@@ -89,18 +91,23 @@ Columns find_columns(std::string_view line, const std::string& type, const std::
 {
     Columns columns;
     if (line.find(',') == std::string_view::npos)
-        columns.separator = line.find(';') != std::string_view::npos ? ';' : line.find('\t') != std::string_view::npos ? '\t' : ',';
+        columns.separator = line.find(';') != std::string_view::npos    ? ';'
+                            : line.find('\t') != std::string_view::npos ? '\t'
+                                                                        : ',';
     std::vector<std::string> names;
     for (size_t begin = 0; begin <= line.size();) {
         const size_t end = std::min(line.find(columns.separator, begin), line.size());
         names.emplace_back(trimmed(line.substr(begin, end - begin)));
         begin = end + 1;
     }
-    const auto find = [&](const std::string& name) { return static_cast<size_t>(std::ranges::find(names, name) - names.begin()); };
+    const auto find = [&](const std::string& name) {
+        return static_cast<size_t>(std::ranges::find(names, name) - names.begin());
+    };
     columns.type = find(type);
     if (columns.type == names.size()) {
         const std::string nearest = did_you_mean(type, names);
-        throw InputError(place + ":1", "no column '" + type + "' among " + in_quotes(line), "a first line of names such as id,type",
+        throw InputError(place + ":1", "no column '" + type + "' among " + in_quotes(line),
+                         "a first line of names such as id,type",
                          nearest.empty() ? "\"column\" says which one holds the types" : nearest.substr(2));
     }
     columns.id = find(id);
@@ -134,7 +141,8 @@ TypeTable read_csv_types(const std::filesystem::path& path, const std::string& t
         if (stop - at == 0 || (stop - at == 1 && *at == '\r')) continue;
         size_t column = 0;
         for (const char* field = at; column <= last; ++column) {
-            if (field > stop) fail(in_quotes({at, static_cast<size_t>(stop - at)}), fmt::format("at least {} fields", last + 1));
+            if (field > stop)
+                fail(in_quotes({at, static_cast<size_t>(stop - at)}), fmt::format("at least {} fields", last + 1));
             const char* const next = find_byte(field, stop, columns.separator);
             if (column == columns.type) {
                 const std::string_view word = trimmed({field, static_cast<size_t>(next - field)});
@@ -145,7 +153,8 @@ TypeTable read_csv_types(const std::filesystem::path& path, const std::string& t
                 const std::string_view word = trimmed({field, static_cast<size_t>(next - field)});
                 uint64_t value = 0;
                 const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-                if (error != std::errc() || rest != word.data() + word.size()) fail(in_quotes(word), "the id of a sphere");
+                if (error != std::errc() || rest != word.data() + word.size())
+                    fail(in_quotes(word), "the id of a sphere");
                 table.ids.push_back(value);
             }
             field = next + 1;
@@ -168,7 +177,9 @@ public:
     {
         const auto [lo, hi] = std::ranges::minmax(table.ids);
         lo_ = lo;
-        const auto twice = [&](uint64_t id) { throw InputError(place, fmt::format("id {} twice", id), "every id once"); };
+        const auto twice = [&](uint64_t id) {
+            throw InputError(place, fmt::format("id {} twice", id), "every id once");
+        };
         if (hi - lo < 4 * table.ids.size() + 1024) {
             straight_.assign(hi - lo + 1, no_code);
             for (size_t i = 0; i < table.ids.size(); ++i) {
@@ -202,20 +213,23 @@ private:
 
 TypeTable read_type_table(const std::filesystem::path& path, const std::string& type, const std::string& id)
 {
-    return lower_case(path.extension().string()) == ".vdb" ? read_vdb_types(path, type, id) : read_csv_types(path, type, id);
+    return lower_case(path.extension().string()) == ".vdb" ? read_vdb_types(path, type, id)
+                                                           : read_csv_types(path, type, id);
 }
 
 std::unique_ptr<ExplicitMixture> mixture_from_table(const TypeTable& table, const std::vector<uint32_t>& type_of_word,
                                                     const ParticleFrame& frame, const std::string& place)
 {
     if (table.ids.empty() && table.code.size() != frame.size()) {
-        throw InputError(place, fmt::format("{} rows without ids", table.code.size()), fmt::format("as many as spheres, {}", frame.size()),
-                         "give the table a column of ids");
+        throw InputError(place, fmt::format("{} rows without ids", table.code.size()),
+                         fmt::format("as many as spheres, {}", frame.size()), "give the table a column of ids");
     }
     const uint32_t highest = type_of_word.empty() ? 0 : std::ranges::max(type_of_word);
     const auto fill = [&](auto& types) {
         types.resize(frame.size());
-        const auto as = [&](uint16_t code) { return static_cast<typename std::decay_t<decltype(types)>::value_type>(type_of_word[code]); };
+        const auto as = [&](uint16_t code) {
+            return static_cast<typename std::decay_t<decltype(types)>::value_type>(type_of_word[code]);
+        };
         if (table.ids.empty()) {
             for (size_t i = 0; i < types.size(); ++i) types[i] = as(table.code[i]);
         } else {

@@ -27,7 +27,8 @@ points::PointDataGrid::Ptr read_points(const std::string& place)
     throw InputError(place, "no grid of points", "a PointDataGrid with an int32 attribute of types");
 }
 
-template <class T> void append_ids(const Leaf& leaf, size_t position, const std::string& place, TypeTable& table)
+template <class T>
+void append_ids(const Leaf& leaf, size_t position, const std::string& place, TypeTable& table)
 {
     const points::AttributeHandle<T> ids(leaf.constAttributeArray(position));
     for (auto i = leaf.beginIndexAll(); i; ++i) {
@@ -51,7 +52,8 @@ TypeTable read_vdb_types(const std::filesystem::path& path, const std::string& t
         for (auto leaf = grid->tree().cbeginLeaf(); leaf; ++leaf) {
             const auto& descriptor = leaf->attributeSet().descriptor();
             const size_t types_at = descriptor.find(type), ids_at = descriptor.find(id);
-            if (types_at == points::AttributeSet::INVALID_POS || leaf->constAttributeArray(types_at).valueType() != "int32")
+            if (types_at == points::AttributeSet::INVALID_POS ||
+                leaf->constAttributeArray(types_at).valueType() != "int32")
                 throw InputError(place, "points without int32 " + type, "the type of each point as int32 " + type,
                                  "\"column\" says which attribute holds the types");
             const points::AttributeHandle<int32_t> types(leaf->constAttributeArray(types_at));
@@ -59,7 +61,8 @@ TypeTable read_vdb_types(const std::filesystem::path& path, const std::string& t
                 const int32_t number = types.get(*i);
                 if (met == codes.end() || met->first != number) met = codes.find(number);
                 if (met == codes.end()) {
-                    if (table.words.size() == 65535) throw InputError(place, "more than 65535 different types", "an attribute of types");
+                    if (table.words.size() == 65535)
+                        throw InputError(place, "more than 65535 different types", "an attribute of types");
                     met = codes.emplace(number, static_cast<uint16_t>(table.words.size())).first;
                     table.words.push_back(std::to_string(number));
                 }
@@ -67,9 +70,12 @@ TypeTable read_vdb_types(const std::filesystem::path& path, const std::string& t
             }
             if (ids_at == points::AttributeSet::INVALID_POS) continue;
             const std::string kind = leaf->constAttributeArray(ids_at).valueType();
-            if (kind == "int64") append_ids<int64_t>(*leaf, ids_at, place, table);
-            else if (kind == "int32") append_ids<int32_t>(*leaf, ids_at, place, table);
-            else throw InputError(place, "ids as " + kind, "int64 or int32 " + id);
+            if (kind == "int64")
+                append_ids<int64_t>(*leaf, ids_at, place, table);
+            else if (kind == "int32")
+                append_ids<int32_t>(*leaf, ids_at, place, table);
+            else
+                throw InputError(place, "ids as " + kind, "int64 or int32 " + id);
         }
         if (!table.ids.empty() && table.ids.size() != table.code.size())
             throw InputError(place, "ids of some points only", "an id for every point, or for none");

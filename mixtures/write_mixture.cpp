@@ -13,10 +13,7 @@ using nlohmann::ordered_json;
 ordered_json vector_json(const Imath::V3d& v) { return {v.x, v.y, v.z}; }
 
 /// One number where all axes agree.
-ordered_json lengths_json(const Imath::V3d& v)
-{
-    return v.x == v.y && v.y == v.z ? ordered_json(v.x) : vector_json(v);
-}
+ordered_json lengths_json(const Imath::V3d& v) { return v.x == v.y && v.y == v.z ? ordered_json(v.x) : vector_json(v); }
 
 std::string path_text(const std::filesystem::path& path, const std::filesystem::path& folder)
 {
@@ -64,7 +61,8 @@ struct Writer {
     {
         json["types"] = mixture.types;
         add_noise(json, mixture.noise);
-        json[mixture.fraction.empty() ? "threshold" : "fraction"] = mixture.fraction.empty() ? mixture.threshold : mixture.fraction;
+        json[mixture.fraction.empty() ? "threshold" : "fraction"] =
+            mixture.fraction.empty() ? mixture.threshold : mixture.fraction;
     }
 
     void operator()(const CheckerboardDescription& mixture) const
@@ -110,7 +108,8 @@ struct Writer {
     void operator()(const BlendDescription& mixture) const
     {
         json["by"] = write_mixture(mixture.by[0], folder);
-        for (size_t k = 0; k < mixture.names.size(); ++k) json["mixtures"][mixture.names[k]] = write_mixture(mixture.mixtures[k], folder);
+        for (size_t k = 0; k < mixture.names.size(); ++k)
+            json["mixtures"][mixture.names[k]] = write_mixture(mixture.mixtures[k], folder);
     }
 };
 
@@ -121,8 +120,10 @@ ordered_json write_mixture(const MixtureDescription& mixture, const std::filesys
     ordered_json json;
     json["kind"] = mixture_kinds[mixture.kind.index()];
     std::visit(Writer{json, folder}, mixture.kind);
-    if (mixture.decided.each) json["frame"] = "each";
-    else if (mixture.decided.frame != DecisionFrame().frame) json["frame"] = mixture.decided.frame;
+    if (mixture.decided.each)
+        json["frame"] = "each";
+    else if (mixture.decided.frame != DecisionFrame().frame)
+        json["frame"] = mixture.decided.frame;
     return json;
 }
 

@@ -6,7 +6,8 @@
 
 namespace scree {
 
-/// A glyph 5 pixels wide: rows from the top, the lowest 5 bits of each from left to right; row 6 stands on the baseline.
+/// A glyph 5 pixels wide: rows from the top, the lowest 5 bits of each from left to right; row 6 stands on the
+/// baseline.
 ///
 /// For pictures on machines without font files. Printable ASCII; a box for everything else.
 struct Glyph {

@@ -1,8 +1,8 @@
 #include "base/drawing/picture.h"
 
-#include "base/error.h"
-#include "base/drawing/picture_file.h"
 #include "base/drawing/bitmap_font.h"
+#include "base/drawing/picture_file.h"
+#include "base/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +46,9 @@ void Picture::draw_frame(int x, int y, int width, int height, ScreenColor color)
 
 void Picture::draw_disc(double x, double y, double radius, ScreenColor color, const int (&clip)[4])
 {
-    const auto in = [&](int i, int j) { return i >= clip[0] && j >= clip[1] && i < clip[0] + clip[2] && j < clip[1] + clip[3]; };
+    const auto in = [&](int i, int j) {
+        return i >= clip[0] && j >= clip[1] && i < clip[0] + clip[2] && j < clip[1] + clip[3];
+    };
     if (radius < 0.7) { // less than a pixel: its area as a shade
         const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
         if (in(i, j)) blend(i, j, color, std::min(1.0, std::numbers::pi * radius * radius));
@@ -56,8 +58,10 @@ void Picture::draw_disc(double x, double y, double radius, ScreenColor color, co
     const ScreenColor rim{dark(color.r), dark(color.g), dark(color.b)};
     const double rim_from = radius > 4 ? radius - 1 : 2 * radius;
     for (int j = static_cast<int>(std::floor(y - radius - 1)); j <= static_cast<int>(std::ceil(y + radius + 1)); ++j) {
-        for (int i = static_cast<int>(std::floor(x - radius - 1)); i <= static_cast<int>(std::ceil(x + radius + 1)); ++i) {
-            const double distance = std::hypot(i + 0.5 - x, j + 0.5 - y), alpha = std::clamp(radius + 0.5 - distance, 0.0, 1.0);
+        for (int i = static_cast<int>(std::floor(x - radius - 1)); i <= static_cast<int>(std::ceil(x + radius + 1));
+             ++i) {
+            const double distance = std::hypot(i + 0.5 - x, j + 0.5 - y),
+                         alpha = std::clamp(radius + 0.5 - distance, 0.0, 1.0);
             if (alpha > 0 && in(i, j)) blend(i, j, distance > rim_from ? rim : color, alpha);
         }
     }
@@ -75,13 +79,17 @@ void Picture::draw_text(int x, int y, const std::string& text, ScreenColor color
     }
 }
 
-int Picture::text_width(const std::string& text, int scale) { return static_cast<int>(text.size()) * (Glyph::width + 1) * scale; }
+int Picture::text_width(const std::string& text, int scale)
+{
+    return static_cast<int>(text.size()) * (Glyph::width + 1) * scale;
+}
 int Picture::text_height(int scale) { return Glyph::height * scale; }
 
 void Picture::write(const std::filesystem::path& path) const
 {
     if (!can_write_picture_file(path)) {
-        throw InputError(path.string(), "the extension '" + path.extension().string() + "'", "a picture format such as .png");
+        throw InputError(path.string(), "the extension '" + path.extension().string() + "'",
+                         "a picture format such as .png");
     }
     std::vector<float> values(rgb_.size());
     std::ranges::transform(rgb_, values.begin(), [](uint8_t c) { return static_cast<float>(c) / 255; });

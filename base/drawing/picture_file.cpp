@@ -1,8 +1,8 @@
 #include "base/drawing/picture_file.h"
 
 #include "base/atomic_file.h"
-#include "base/error.h"
 #include "base/drawing/picture_module.h"
+#include "base/error.h"
 #include "base/program_folder.h"
 
 #include <dlfcn.h>
@@ -30,7 +30,8 @@ PictureModule load_module()
         to = library ? reinterpret_cast<F*>(dlsym(library, name)) : nullptr;
         if (to) return;
         const char* const why = dlerror();
-        throw InputError(file.string(), why ? why : "no " + std::string(name), "the part of scree that reads and writes pictures",
+        throw InputError(file.string(), why ? why : "no " + std::string(name),
+                         "the part of scree that reads and writes pictures",
                          "it is built with scree and stays in scree's folder; it needs OpenImageIO");
     };
     PictureModule module{};

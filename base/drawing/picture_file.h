@@ -12,13 +12,13 @@ namespace scree {
 struct PictureFile {
     size_t width = 0, height = 0, channels = 0;
     size_t full_width = 0, full_height = 0; ///< of the picture it was cropped out of
-    bool whole = true;                      ///< nothing was cropped off
+    bool whole = true; ///< nothing was cropped off
     bool eight_bit = false;
     std::vector<float> values; ///< empty when not whole
 };
 
-// OpenImageIO stands behind these. Loading it takes longer than many commands do in all, so it waits for the first call; each
-// throws InputError when it is not there.
+// OpenImageIO stands behind these. Loading it takes longer than many commands do in all, so it waits for the first
+// call; each throws InputError when it is not there.
 
 /// Reads a picture (EXR, HDR, PNG, ...). Throws InputError when it cannot be read.
 PictureFile read_picture_file(const std::filesystem::path& path);
@@ -29,8 +29,8 @@ bool can_write_picture_file(const std::filesystem::path& path);
 /// The bytes of the file that write_picture_file would write under this name. Throws InputError.
 std::string encode_picture(const std::filesystem::path& name, int width, int height, std::span<const float> rgb);
 
-/// Writes an RGB picture (PNG, JPEG, ... by the extension), 8-bit where the format has it; rgb: 3 width height values, 0 to 1,
-/// as the screen shows them. The file appears whole or not at all. Throws InputError.
+/// Writes an RGB picture (PNG, JPEG, ... by the extension), 8-bit where the format has it; rgb: 3 width height values,
+/// 0 to 1, as the screen shows them. The file appears whole or not at all. Throws InputError.
 void write_picture_file(const std::filesystem::path& path, int width, int height, std::span<const float> rgb);
 
 } // namespace scree

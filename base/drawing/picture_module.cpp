@@ -10,7 +10,8 @@ bool scree_can_write_picture(const char* path)
     return out && out->supports("ioproxy");
 }
 
-bool scree_encode_picture(const char* path, int width, int height, const float* rgb, std::string& bytes, std::string& error)
+bool scree_encode_picture(const char* path, int width, int height, const float* rgb, std::string& bytes,
+                          std::string& error)
 {
     const auto out = OIIO::ImageOutput::create(path);
     if (!out) {
@@ -19,7 +20,8 @@ bool scree_encode_picture(const char* path, int width, int height, const float* 
     }
     OIIO::Filesystem::IOVecOutput memory;
     const OIIO::ImageSpec spec(width, height, 3, OIIO::TypeUInt8);
-    if (!out->set_ioproxy(&memory) || !out->open(path, spec) || !out->write_image(OIIO::TypeFloat, rgb) || !out->close()) {
+    if (!out->set_ioproxy(&memory) || !out->open(path, spec) || !out->write_image(OIIO::TypeFloat, rgb) ||
+        !out->close()) {
         error = out->geterror();
         return false;
     }
@@ -40,7 +42,8 @@ bool scree_read_picture(const char* path, scree::PictureFile& picture, std::stri
     picture.channels = static_cast<size_t>(spec.nchannels);
     picture.full_width = static_cast<size_t>(spec.full_width);
     picture.full_height = static_cast<size_t>(spec.full_height);
-    picture.whole = spec.x == spec.full_x && spec.y == spec.full_y && spec.width == spec.full_width && spec.height == spec.full_height;
+    picture.whole = spec.x == spec.full_x && spec.y == spec.full_y && spec.width == spec.full_width &&
+                    spec.height == spec.full_height;
     picture.eight_bit = image.nativespec().format == OIIO::TypeUInt8;
     if (!picture.whole) return true;
     picture.values.resize(picture.width * picture.height * picture.channels);

@@ -14,7 +14,8 @@ struct PlotSeries {
     Style style = Style::line;
     std::vector<double> x, y;
     std::vector<double> error; ///< of y, drawn as whiskers on dots; may be empty
-    /// Of a line: its points are dots too, these as rings; those not above 0 on a logarithmic axis stand on the lower edge. May be empty.
+    /// Of a line: its points are dots too, these as rings; those not above 0 on a logarithmic axis stand on the lower
+    /// edge. May be empty.
     std::vector<bool> hollow{};
 };
 
@@ -34,8 +35,9 @@ struct Plot {
     std::optional<std::pair<double, double>> x_range, y_range; ///< of what is shown, where the data should not decide
 };
 
-/// The plot as an <svg> element that stands on its own; well-formed XML, the same for the same plot. Values that are not
-/// finite, or not above 0 on a logarithmic axis, are left out. Lines after the sixth are dashed, as colours come again.
+/// The plot as an <svg> element that stands on its own; well-formed XML, the same for the same plot. Values that are
+/// not finite, or not above 0 on a logarithmic axis, are left out. Lines after the sixth are dashed, as colours come
+/// again.
 std::string svg_of(const Plot& plot);
 
 /// Text with &, <, > and quotes as XML wants them.

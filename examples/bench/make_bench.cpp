@@ -18,7 +18,9 @@ double billows(const openvdb::Vec3d& p)
     double sum = 0, weight = 0.5, scale = 3;
     for (int octave = 0; octave < 4; ++octave) {
         const openvdb::Vec3d q = scale * p;
-        sum += weight * std::sin(q.x() + 1.7 * std::sin(q.y() + octave)) * std::sin(q.y() + 1.3 * std::sin(q.z() + 2 * octave)) * std::sin(q.z() + 1.1 * std::sin(q.x() + 3 * octave));
+        sum += weight * std::sin(q.x() + 1.7 * std::sin(q.y() + octave)) *
+               std::sin(q.y() + 1.3 * std::sin(q.z() + 2 * octave)) *
+               std::sin(q.z() + 1.1 * std::sin(q.x() + 3 * octave));
         weight *= 0.5;
         scale *= 2.03;
     }
@@ -29,7 +31,8 @@ double billows(const openvdb::Vec3d& p)
 double cloud(const openvdb::Vec3d& p)
 {
     double nearest = 1e9;
-    constexpr double puffs[][4] = {{0, 0, 0, 0.45}, {0.45, 0.1, -0.05, 0.35}, {-0.45, -0.1, -0.1, 0.33}, {0.1, -0.15, 0.25, 0.3}, {-0.75, 0.05, -0.15, 0.2}, {0.8, 0, -0.15, 0.2}};
+    constexpr double puffs[][4] = {{0, 0, 0, 0.45},         {0.45, 0.1, -0.05, 0.35},  {-0.45, -0.1, -0.1, 0.33},
+                                   {0.1, -0.15, 0.25, 0.3}, {-0.75, 0.05, -0.15, 0.2}, {0.8, 0, -0.15, 0.2}};
     for (const auto& c : puffs) nearest = std::min(nearest, (p - openvdb::Vec3d(c[0], c[1], c[2])).length() - c[3]);
     return std::clamp(-6 * (nearest + 0.28 * billows(2 * p)), 0.0, 1.0);
 }

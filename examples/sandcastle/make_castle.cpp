@@ -1,7 +1,8 @@
 // Makes the mesh of a sandcastle from a level set: make_castle OUT.off [VOXEL]
 //
-// Lengths in metres, z up, the ground at z = 0. The castle stands on a mound: walls with battlements, a tower at each corner, a keep
-// and a gate. The solid is told by a signed distance (near the surface) that unions and cuts combine by min and max.
+// Lengths in metres, z up, the ground at z = 0. The castle stands on a mound: walls with battlements, a tower at each
+// corner, a keep and a gate. The solid is told by a signed distance (near the surface) that unions and cuts combine by
+// min and max.
 
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/SignedFloodFill.h>
@@ -18,7 +19,8 @@ using openvdb::Vec3d;
 
 double box(const Vec3d& p, const Vec3d& lo, const Vec3d& hi)
 {
-    const Vec3d q(std::max(lo.x() - p.x(), p.x() - hi.x()), std::max(lo.y() - p.y(), p.y() - hi.y()), std::max(lo.z() - p.z(), p.z() - hi.z()));
+    const Vec3d q(std::max(lo.x() - p.x(), p.x() - hi.x()), std::max(lo.y() - p.y(), p.y() - hi.y()),
+                  std::max(lo.z() - p.z(), p.z() - hi.z()));
     const Vec3d out(std::max(q.x(), 0.0), std::max(q.y(), 0.0), std::max(q.z(), 0.0));
     return out.length() + std::min(0.0, std::max({q.x(), q.y(), q.z()}));
 }
@@ -62,7 +64,8 @@ double castle(const Vec3d& p)
     double mound = (p.z() - 0.055 * std::exp(-std::pow(d0 / 0.46, 6)) - 0.03 * (1 - d0 * d0 / 0.36)) * 0.8;
     mound = std::max({mound, -p.z(), d0 - 0.60});
 
-    double walls = std::max(box(p, {-a - wall, -a - wall, 0.0}, {a + wall, a + wall, top}), -box(p, {-a + wall, -a + wall, -1}, {a - wall, a - wall, 1}));
+    double walls = std::max(box(p, {-a - wall, -a - wall, 0.0}, {a + wall, a + wall, top}),
+                            -box(p, {-a + wall, -a + wall, -1}, {a - wall, a - wall, 1}));
     // The walk behind the parapet is lower, and the parapet has gaps.
     const double outside = std::max(std::abs(p.x()), std::abs(p.y()));
     walls = std::max(walls, -std::max(std::max(outside - a - 0.018, -(outside - a + wall)), 0.172 - p.z()));

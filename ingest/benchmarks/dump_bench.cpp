@@ -3,8 +3,8 @@
 // Writes dumps to the temporary folder, reads each on one core (from the page cache), and prints MB of text per second
 // of processor time. "open" finds the frames, "read" parses one.
 
-#include "ingest/particles/dump_series.h"
 #include "base/byte_source.h"
+#include "ingest/particles/dump_series.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -29,7 +29,7 @@ using scree::DumpSeries;
 
 struct Case {
     const char* name;
-    bool wide;     ///< velocities and forces too
+    bool wide; ///< velocities and forces too
     bool shuffled; ///< rows in the order that LAMMPS leaves them in
     bool packed;
 };
@@ -46,13 +46,16 @@ void write_dump(const std::filesystem::path& path, const Case& what, size_t byte
     if (what.shuffled) std::shuffle(ids.begin(), ids.end(), random);
 
     fmt::memory_buffer text;
-    fmt::format_to(std::back_inserter(text), "ITEM: TIMESTEP\n1000\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS pp pp ff\n0 1\n0 1\n0 1\nITEM: ATOMS id type x y z {}radius\n",
+    fmt::format_to(std::back_inserter(text),
+                   "ITEM: TIMESTEP\n1000\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS pp pp ff\n0 1\n0 1\n0 1\nITEM: "
+                   "ATOMS id type x y z {}radius\n",
                    count, what.wide ? "vx vy vz fx fy fz " : "");
     const std::string mode = what.packed ? "wb1" : "wbT"; // zlib's "T": as it is
     gzFile file = gzopen(path.c_str(), mode.c_str());
     if (!file) throw std::runtime_error("cannot write " + path.string());
     for (const uint64_t id : ids) {
-        fmt::format_to(std::back_inserter(text), "{} {} {:.6g} {:.6g} {:.6g} ", id, 1 + id % 3, place(random), place(random), place(random));
+        fmt::format_to(std::back_inserter(text), "{} {} {:.6g} {:.6g} {:.6g} ", id, 1 + id % 3, place(random),
+                       place(random), place(random));
         if (what.wide)
             for (int k = 0; k < 6; ++k) fmt::format_to(std::back_inserter(text), "{:.6g} ", speed(random));
         fmt::format_to(std::back_inserter(text), "{:.4g}\n", 0.001 * (1 + place(random)));
@@ -97,7 +100,8 @@ double time_of(const std::function<void()>& work)
 
 void measure(const Case& what, size_t bytes)
 {
-    const std::filesystem::path path = std::filesystem::temp_directory_path() / fmt::format("scree_dump_bench_{}.dump", ::getpid());
+    const std::filesystem::path path =
+        std::filesystem::temp_directory_path() / fmt::format("scree_dump_bench_{}.dump", ::getpid());
     struct Remove {
         const std::filesystem::path& path;
         ~Remove() { std::filesystem::remove(path); }
@@ -113,9 +117,10 @@ void measure(const Case& what, size_t bytes)
     const double read_time = time_of([&] { particles = series.read(0).size(); });
 
     const double megabytes = double(counted.second) * 1e-6;
-    fmt::print("{:<28} {:>6.0f} MB {:>9} grains | count lines {:>6.0f} MB/s | open {:>6.0f} | read {:>6.0f} | open+read {:>6.0f} | read takes {:.1f}x, open+read {:.1f}x the count\n",
-               what.name, megabytes, particles, megabytes / count_time, megabytes / open_time, megabytes / read_time, megabytes / whole_time,
-               read_time / count_time, whole_time / count_time);
+    fmt::print("{:<28} {:>6.0f} MB {:>9} grains | count lines {:>6.0f} MB/s | open {:>6.0f} | read {:>6.0f} | "
+               "open+read {:>6.0f} | read takes {:.1f}x, open+read {:.1f}x the count\n",
+               what.name, megabytes, particles, megabytes / count_time, megabytes / open_time, megabytes / read_time,
+               megabytes / whole_time, read_time / count_time, whole_time / count_time);
 }
 
 } // namespace
@@ -125,8 +130,9 @@ int main(int argc, char** argv)
     try {
         const size_t megabytes = argc > 1 ? std::stoul(argv[1]) : 200;
         const tbb::global_control one_core(tbb::global_control::max_allowed_parallelism, 1);
-        for (const Case& what : {Case{"id type x y z radius", false, false, false}, Case{"the same, shuffled", false, true, false},
-                                 Case{"with velocity and force", true, false, false}, Case{"the first, gzip", false, false, true}})
+        for (const Case& what :
+             {Case{"id type x y z radius", false, false, false}, Case{"the same, shuffled", false, true, false},
+              Case{"with velocity and force", true, false, false}, Case{"the first, gzip", false, false, true}})
             measure(what, megabytes * 1000000);
     } catch (const std::exception& failure) {
         fmt::print(stderr, "dump_bench: {}\n", failure.what());

@@ -1,7 +1,7 @@
+#include "base/text.h"
 #include "ingest/meshes/formats/polygon_soup.h"
 #include "ingest/meshes/mesh_topology.h"
 #include "ingest/meshes/polygons.h"
-#include "base/text.h"
 #include "ingest/meshes/triangle_mesh.h"
 #include "ingest/meshes/weld.h"
 
@@ -31,7 +31,8 @@ const Format& format_of(const std::filesystem::path& path)
     for (const Format& format : formats) {
         if (extension == format.extension) return format;
     }
-    throw InputError(path.string(), extension.empty() ? "a name without extension" : "the extension " + in_quotes(extension),
+    throw InputError(path.string(),
+                     extension.empty() ? "a name without extension" : "the extension " + in_quotes(extension),
                      ".obj, .ply, .stl or .off");
 }
 
@@ -44,7 +45,8 @@ std::string content_of(const std::filesystem::path& path)
     if (std::filesystem::is_directory(status)) throw InputError(place, "a directory", "a mesh file");
     std::ifstream file(path, std::ios::binary);
     std::string content((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-    if (!file.is_open() || file.bad()) throw InputError(place, "a file that cannot be read", "a mesh file", "check its permissions");
+    if (!file.is_open() || file.bad())
+        throw InputError(place, "a file that cannot be read", "a mesh file", "check its permissions");
     if (content.empty()) throw InputError(place, "an empty file", "a mesh");
     return content;
 }
@@ -121,7 +123,8 @@ TriangleMesh welded(const TriangleMesh& mesh)
         }
     }
     result.triangles.reserve(mesh.triangles.size());
-    for (const auto& [a, b, c] : mesh.triangles) result.triangles.push_back({renumbered[a], renumbered[b], renumbered[c]});
+    for (const auto& [a, b, c] : mesh.triangles)
+        result.triangles.push_back({renumbered[a], renumbered[b], renumbered[c]});
     return result;
 }
 

@@ -7,7 +7,7 @@
 namespace scree {
 
 struct MeshTopology {
-    bool closed = false;   ///< every edge has exactly two faces (and there is one)
+    bool closed = false; ///< every edge has exactly two faces (and there is one)
     bool oriented = false; ///< the faces at an edge agree on which side is out
 };
 

@@ -22,7 +22,8 @@ using Point2 = Kernel::Point_2;
 enum class Side { unknown, outside, inside };
 
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<uint32_t, Kernel>;
-using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel, CGAL::Triangulation_face_base_with_info_2<Side, Kernel>>;
+using FaceBase =
+    CGAL::Constrained_triangulation_face_base_2<Kernel, CGAL::Triangulation_face_base_with_info_2<Side, Kernel>>;
 // The tag lets edges touch and coincide, as they do where a polygon is cut open, and throws where they cross.
 using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
@@ -117,7 +118,8 @@ bool mark_sides(Triangulation& plane, const EdgeCount& edges)
     return true;
 }
 
-bool fill(const std::vector<Point2>& points, std::span<const uint32_t> corners, std::vector<std::array<uint32_t, 3>>& triangles)
+bool fill(const std::vector<Point2>& points, std::span<const uint32_t> corners,
+          std::vector<std::array<uint32_t, 3>>& triangles)
 {
     Triangulation plane;
     std::vector<Vertex> vertices;

@@ -17,7 +17,8 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
-using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, uint32_t, CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
+using Box =
+    CGAL::Box_intersection_d::Box_with_info_d<double, 3, uint32_t, CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
 
 /// Triangles of exact predicates; vertices at one place count as one, so that seams are no intersections.
 class ExactTriangles {
@@ -45,7 +46,8 @@ public:
         }
         switch (shared) {
         case 0: return CGAL::do_intersect(triangle(f), triangle(g));
-        case 1: return CGAL::do_intersect(triangle(f), opposite(g, j)) || CGAL::do_intersect(triangle(g), opposite(f, i));
+        case 1:
+            return CGAL::do_intersect(triangle(f), opposite(g, j)) || CGAL::do_intersect(triangle(g), opposite(f, i));
         case 2: return folded_flat(f, 3 - i, g, 3 - j);
         default: return true; // the same face twice
         }
@@ -155,7 +157,8 @@ SelfIntersections find_self_intersections(const TriangleMesh& mesh, uint64_t eno
     const std::ptrdiff_t cutoff = 2000; // of CGAL's divide and conquer: its manual's advice for many boxes
     try {
         CGAL::box_self_intersection_d(
-            pointers.begin(), pointers.end(), [&](const Box* a, const Box* b) { tester.add(a->info(), b->info()); }, cutoff);
+            pointers.begin(), pointers.end(), [&](const Box* a, const Box* b) { tester.add(a->info(), b->info()); },
+            cutoff);
     } catch (const PairTester::Enough&) { // the only way out of CGAL's loop
     }
     return tester.finish();

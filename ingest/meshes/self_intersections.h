@@ -15,6 +15,7 @@ struct SelfIntersections {
 /// Exact (CGAL's predicates), on all threads; positions must be finite and faces have three different corners.
 /// enough: the search ends soon after that many pairs are found (a mesh can have the square of its faces); what it then
 /// returns is the same on any number of threads.
-SelfIntersections find_self_intersections(const TriangleMesh& mesh, uint64_t enough = std::numeric_limits<uint64_t>::max());
+SelfIntersections find_self_intersections(const TriangleMesh& mesh,
+                                          uint64_t enough = std::numeric_limits<uint64_t>::max());
 
 } // namespace scree

@@ -1,7 +1,7 @@
 #include "ingest/meshes/triangle_mesh.h"
 
-#include "ingest/meshes/mesh_topology.h"
 #include "base/error.h"
+#include "ingest/meshes/mesh_topology.h"
 
 #include <algorithm>
 
@@ -36,7 +36,8 @@ std::vector<DirectedEdge> sorted_edges(const TriangleMesh& mesh)
 TriangleMesh box_mesh(const Imath::V3d& lo, const Imath::V3d& hi)
 {
     TriangleMesh mesh;
-    for (int k = 0; k < 8; ++k) mesh.positions.emplace_back(k & 1 ? hi.x : lo.x, k & 2 ? hi.y : lo.y, k & 4 ? hi.z : lo.z);
+    for (int k = 0; k < 8; ++k)
+        mesh.positions.emplace_back(k & 1 ? hi.x : lo.x, k & 2 ? hi.y : lo.y, k & 4 ? hi.z : lo.z);
     mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                       {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
     return mesh;
@@ -69,7 +70,8 @@ TriangleMesh read_closed_mesh(const std::filesystem::path& path, const std::stri
 {
     TriangleMesh mesh = read_mesh(path);
     if (!is_closed_and_oriented(mesh)) {
-        throw InputError(path.string(), "an open or inconsistently oriented mesh", "a closed mesh, " + because, "scree info says more of it");
+        throw InputError(path.string(), "an open or inconsistently oriented mesh", "a closed mesh, " + because,
+                         "scree info says more of it");
     }
     if (signed_volume(mesh) < 0) {
         for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);

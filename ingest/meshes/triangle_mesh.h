@@ -26,18 +26,18 @@ TriangleMesh read_mesh(const std::filesystem::path& path);
 /// What `scree info` says of a mesh.
 struct MeshReport {
     uint64_t vertices = 0, faces = 0;
-    bool closed = false;              ///< every edge has exactly two faces
-    bool oriented = false;            ///< neighbouring faces agree on which side is out
-    uint64_t self_intersections = 0;  ///< pairs of faces that meet elsewhere than at a shared edge or vertex
-    double volume = 0;                ///< signed, by the divergence theorem; negative: faces look inward
-    Imath::V3d lo{0}, hi{0};          ///< bounds
+    bool closed = false; ///< every edge has exactly two faces
+    bool oriented = false; ///< neighbouring faces agree on which side is out
+    uint64_t self_intersections = 0; ///< pairs of faces that meet elsewhere than at a shared edge or vertex
+    double volume = 0; ///< signed, by the divergence theorem; negative: faces look inward
+    Imath::V3d lo{0}, hi{0}; ///< bounds
 };
 
 /// Whether the surface is closed and consistently oriented (edge by edge; cheap).
 bool is_closed_and_oriented(const TriangleMesh& mesh);
 
-/// The same as read_mesh for a surface that must enclose something: closed, consistently oriented, and turned so that faces look
-/// outward. because: why it must be closed, for the InputError.
+/// The same as read_mesh for a surface that must enclose something: closed, consistently oriented, and turned so that
+/// faces look outward. because: why it must be closed, for the InputError.
 TriangleMesh read_closed_mesh(const std::filesystem::path& path, const std::string& because);
 
 /// Signed volume by the divergence theorem, summed about the middle of the bounds.

@@ -26,7 +26,9 @@ std::string obj_text(const TriangleMesh& mesh)
 {
     std::string out;
     for (const auto& p : mesh.positions) fmt::format_to(std::back_inserter(out), "v {} {} {}\n", p.x, p.y, p.z);
-    for (const auto& t : mesh.triangles) fmt::format_to(std::back_inserter(out), "f {} {} {}\n", t[0] + uint64_t{1}, t[1] + uint64_t{1}, t[2] + uint64_t{1});
+    for (const auto& t : mesh.triangles)
+        fmt::format_to(std::back_inserter(out), "f {} {} {}\n", t[0] + uint64_t{1}, t[1] + uint64_t{1},
+                       t[2] + uint64_t{1});
     return out;
 }
 
@@ -40,7 +42,8 @@ std::string off_text(const TriangleMesh& mesh)
 
 std::string ply_bytes(const TriangleMesh& mesh)
 {
-    std::string out = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+    std::string out = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double "
+                                  "x\nproperty double y\nproperty double z\n"
                                   "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
                                   mesh.positions.size(), mesh.triangles.size());
     for (const auto& p : mesh.positions) {
@@ -80,7 +83,8 @@ const Format& format_of(const std::filesystem::path& path)
     for (const Format& format : formats) {
         if (extension == format.extension) return format;
     }
-    throw InputError(path.string(), extension.empty() ? "no extension" : "extension " + extension, "a name that ends in .obj, .ply, .stl or .off");
+    throw InputError(path.string(), extension.empty() ? "no extension" : "extension " + extension,
+                     "a name that ends in .obj, .ply, .stl or .off");
 }
 
 } // namespace

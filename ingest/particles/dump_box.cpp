@@ -1,5 +1,5 @@
-#include "ingest/particles/dump_header.h"
 #include "base/text.h"
+#include "ingest/particles/dump_header.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +22,8 @@ std::array<bool, 3> parse_boundaries(const std::vector<std::string>& words, size
     };
     const std::vector<std::string> rest(words.begin() + static_cast<std::ptrdiff_t>(first), words.end());
     if (rest.size() != 3 || !std::ranges::all_of(rest, is_boundary))
-        throw InputError(place, fmt::format("BOX BOUNDS followed by {}", in_quotes(fmt::format("{}", fmt::join(rest, " ")))),
+        throw InputError(place,
+                         fmt::format("BOX BOUNDS followed by {}", in_quotes(fmt::format("{}", fmt::join(rest, " ")))),
                          "three boundary words of the letters p, f, s, m (as in 'pp ff ff'), or none",
                          "a tilted box has 'xy xz yz' or 'abc origin' before them");
     for (size_t axis = 0; axis < 3; ++axis) periodic[axis] = rest[axis] == "pp";
@@ -69,7 +70,8 @@ SimulationBox parse_dump_box(const std::vector<std::string>& words, const std::a
 
     if (kind == BoxKind::general) {
         for (size_t i = 0; i < 3; ++i) {
-            const auto row = parse_row(rows[i], 4, "4 numbers: an edge vector and one coordinate of the origin", at(i + 1));
+            const auto row =
+                parse_row(rows[i], 4, "4 numbers: an edge vector and one coordinate of the origin", at(i + 1));
             box.edges[i] = {row[0], row[1], row[2]};
             box.lo[static_cast<int>(i)] = row[3];
         }
@@ -81,7 +83,8 @@ SimulationBox parse_dump_box(const std::vector<std::string>& words, const std::a
     std::array<double, 3> lo{}, hi{}, tilt{0, 0, 0};
     for (size_t i = 0; i < 3; ++i) {
         const bool tilted = kind == BoxKind::restricted;
-        const auto row = parse_row(rows[i], tilted ? 3 : 2, tilted ? "3 numbers: lo hi tilt" : "2 numbers: lo hi", at(i + 1));
+        const auto row =
+            parse_row(rows[i], tilted ? 3 : 2, tilted ? "3 numbers: lo hi tilt" : "2 numbers: lo hi", at(i + 1));
         lo[i] = row[0];
         hi[i] = row[1];
         if (tilted) tilt[i] = row[2];

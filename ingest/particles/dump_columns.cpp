@@ -140,7 +140,8 @@ void Planner::types()
 void Planner::orientation()
 {
     // LAMMPS writes w i j k, both by name and as `compute property/atom quatw quati quatj quatk`.
-    static constexpr std::array<DumpField, 4> fields{DumpField::quat_w, DumpField::quat_x, DumpField::quat_y, DumpField::quat_z};
+    static constexpr std::array<DumpField, 4> fields{DumpField::quat_w, DumpField::quat_x, DumpField::quat_y,
+                                                     DumpField::quat_z};
     std::array<size_t, 4> found{none, none, none, none};
     static constexpr std::array<std::string_view, 4> names{"quatw", "quati", "quatj", "quatk"};
     for (size_t i = 0; i < 4; ++i) {
@@ -160,7 +161,8 @@ void Planner::orientation()
     const auto present = std::ranges::count_if(found, [](size_t column) { return column != none; });
     if (present == 0) return;
     if (present < 4) {
-        columns_.note = fmt::format("only {} of the four columns quatw quati quatj quatk: orientations are left out", present);
+        columns_.note =
+            fmt::format("only {} of the four columns quatw quati quatj quatk: orientations are left out", present);
         return;
     }
     for (size_t i = 0; i < 4; ++i) assign(found[i], fields[i]);
@@ -175,7 +177,8 @@ DumpColumns plan_dump_columns(const std::vector<std::string_view>& words, const 
     columns.names.assign(words.begin(), words.end());
     columns.fields.assign(words.size(), DumpField::unused);
     if (words.empty())
-        throw InputError(place, "'ITEM: ATOMS' without column names", "the columns, as in 'ITEM: ATOMS id type x y z radius'",
+        throw InputError(place, "'ITEM: ATOMS' without column names",
+                         "the columns, as in 'ITEM: ATOMS id type x y z radius'",
                          "LAMMPS before 2010 left them out: add them to the line");
     Planner planner(columns, place);
     planner.coordinates();

@@ -33,8 +33,9 @@ private:
 
     [[noreturn]] void cut(uint64_t line, const std::string& expected) const
     {
-        throw Truncated{InputError(place(line), reader_.source().truncated() ? "the end of cut off packed data" : "the end of the file",
-                                   expected, "was the file copied whole, or is it still being written?")};
+        throw Truncated{InputError(
+            place(line), reader_.source().truncated() ? "the end of cut off packed data" : "the end of the file",
+            expected, "was the file copied whole, or is it still being written?")};
     }
 
     std::optional<std::string> next_item();
@@ -67,7 +68,8 @@ std::optional<std::string> HeaderReader::next_item()
             // Cut in the middle of its first word, and of nothing else's.
             if (!line->terminated && item_mark.starts_with(text)) cut(item_line_, "ITEM: TIMESTEP");
             if (!started_ && !previous_)
-                throw InputError(place(item_line_), in_quotes(text), "ITEM: TIMESTEP", "is this a text dump written by LAMMPS or LIGGGHTS?");
+                throw InputError(place(item_line_), in_quotes(text), "ITEM: TIMESTEP",
+                                 "is this a text dump written by LAMMPS or LIGGGHTS?");
             if (!started_)
                 throw InputError(place(item_line_), in_quotes(text), "ITEM: TIMESTEP, or the end of the file",
                                  fmt::format("NUMBER OF ATOMS promised {} lines of atoms", previous_->particles));
@@ -95,7 +97,8 @@ std::string HeaderReader::value_line(const std::string& expected)
 void HeaderReader::once(bool& seen, const char* item)
 {
     if (seen)
-        throw InputError(place(item_line_), fmt::format("ITEM: {} twice in one frame", item), "ITEM: ATOMS between two frames",
+        throw InputError(place(item_line_), fmt::format("ITEM: {} twice in one frame", item),
+                         "ITEM: ATOMS between two frames",
                          "a run that was stopped and went on in the same file leaves half a frame: cut it out");
     seen = true;
 }
@@ -109,7 +112,8 @@ void HeaderReader::take_box(std::string_view rest)
     for (std::string& row : rows) {
         row = value_line("three lines of box bounds");
         if (row.starts_with(item_mark))
-            throw InputError(place(reader_.line() - 1), in_quotes(row), "three lines of box bounds under ITEM: BOX BOUNDS");
+            throw InputError(place(reader_.line() - 1), in_quotes(row),
+                             "three lines of box bounds under ITEM: BOX BOUNDS");
     }
     header_.box = parse_dump_box(words, rows, reader_.source().path().string(), item_line_);
 }
@@ -128,7 +132,8 @@ void HeaderReader::take_atoms(std::string_view rest)
     else
         header_.columns = std::make_shared<const DumpColumns>(plan_dump_columns(words, place(item_line_)));
     if (header_.columns->any_scaled() && !header_.box)
-        throw InputError(place(item_line_), "scaled coordinates (xs, ys or zs) without ITEM: BOX BOUNDS", "the box that they are fractions of");
+        throw InputError(place(item_line_), "scaled coordinates (xs, ys or zs) without ITEM: BOX BOUNDS",
+                         "the box that they are fractions of");
     done_ = true;
 }
 
@@ -148,7 +153,8 @@ void HeaderReader::take_item(const std::string& item)
         once(has_count_, "NUMBER OF ATOMS");
         const int64_t count = integer("the number of atoms, an integer of 0 or more");
         if (count < 0)
-            throw InputError(place(reader_.line() - 1), fmt::format("{} atoms", count), "the number of atoms, an integer of 0 or more");
+            throw InputError(place(reader_.line() - 1), fmt::format("{} atoms", count),
+                             "the number of atoms, an integer of 0 or more");
         header_.particles = static_cast<uint64_t>(count);
     } else if (item == "BOX BOUNDS" || item.starts_with("BOX BOUNDS ")) {
         take_box(std::string_view(item).substr(10));
@@ -169,7 +175,8 @@ void HeaderReader::take_item(const std::string& item)
         if (!time || !std::isfinite(*time))
             throw InputError(place(reader_.line() - 1), in_quotes(row), "the time, a finite number, under ITEM: TIME");
         header_.time = *time;
-    } else if (item.starts_with("NUMBER OF ENTRIES") || item.starts_with("ENTRIES") || item.starts_with("NUMBER OF GRID")) {
+    } else if (item.starts_with("NUMBER OF ENTRIES") || item.starts_with("ENTRIES") ||
+               item.starts_with("NUMBER OF GRID")) {
         throw InputError(place(item_line_), in_quotes("ITEM: " + item), "a dump of atoms",
                          "this is a 'dump local' or 'dump grid' file: write one with 'dump custom'");
     } else {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "ingest/particles/dump_columns.h"
-#include "ingest/particles/particle_frame.h"
 #include "base/error.h"
 #include "base/line_reader.h"
+#include "ingest/particles/dump_columns.h"
+#include "ingest/particles/particle_frame.h"
 
 #include <memory>
 #include <optional>
@@ -19,14 +19,14 @@ struct DumpHeader {
     std::optional<SimulationBox> box;
     uint64_t particles = 0;
     std::shared_ptr<const DumpColumns> columns;
-    uint64_t atoms_line = 0;   ///< number of the first line of atoms, from 1
+    uint64_t atoms_line = 0; ///< number of the first line of atoms, from 1
     uint64_t atoms_offset = 0; ///< where that line begins, in unpacked bytes
 };
 
 /// What `read_dump_header` came upon.
 struct DumpHeaderResult {
-    std::optional<DumpHeader> header;      ///< nothing: the file ended
-    std::optional<InputError> truncation;  ///< the file ended inside the header
+    std::optional<DumpHeader> header; ///< nothing: the file ended
+    std::optional<InputError> truncation; ///< the file ended inside the header
 };
 
 /// Reads from "ITEM: TIMESTEP" (or what stands before it) to "ITEM: ATOMS".

@@ -14,7 +14,8 @@ constexpr size_t most_type_names = 1000;
 
 class Indexer {
 public:
-    Indexer(LineReader& reader, DumpFileIndex& index, const std::function<void(double)>& update, const Progress& progress)
+    Indexer(LineReader& reader, DumpFileIndex& index, const std::function<void(double)>& update,
+            const Progress& progress)
         : reader_(reader), index_(index), update_(update), progress_(progress)
     {
     }
@@ -49,7 +50,8 @@ void Indexer::run()
     }
     // A stream may also be cut just between two frames.
     if (!index_.truncation && reader_.source().truncated())
-        index_.truncation = InputError(place(reader_.line()), "the end of cut off packed data", "a whole file", "copy or write the file again");
+        index_.truncation = InputError(place(reader_.line()), "the end of cut off packed data", "a whole file",
+                                       "copy or write the file again");
 }
 
 void Indexer::note(const std::string& text)
@@ -69,18 +71,22 @@ bool Indexer::pass_atoms(const DumpHeader& header)
         if (lines.lines == 0) {
             const std::optional<TextLine> next = reader_.next();
             const bool cut_item = next && !next->terminated;
-            const std::string expected = fmt::format("{} lines of atoms (NUMBER OF ATOMS of step {})", header.particles, header.step);
+            const std::string expected =
+                fmt::format("{} lines of atoms (NUMBER OF ATOMS of step {})", header.particles, header.step);
             if (next && !cut_item)
-                throw InputError(place(next->number), fmt::format("{} after {} lines of atoms", in_quotes(next->text), passed), expected,
+                throw InputError(place(next->number),
+                                 fmt::format("{} after {} lines of atoms", in_quotes(next->text), passed), expected,
                                  "a run that was stopped and went on in the same file leaves half a frame: cut it out");
             const char* end = reader_.source().truncated() ? "the end of cut off packed data" : "the end of the file";
-            index_.truncation = InputError(place(next ? next->number : reader_.line()), fmt::format("{} after {} lines of atoms", end, passed),
-                                           expected, "was the file copied whole, or is it still being written?");
+            index_.truncation = InputError(place(next ? next->number : reader_.line()),
+                                           fmt::format("{} after {} lines of atoms", end, passed), expected,
+                                           "was the file copied whole, or is it still being written?");
             return false;
         }
         if (header.columns->has_name)
             for (const LineBlock& block : lines.blocks) collect_names(header, block);
-        if (!lines.terminated && passed == header.particles && !last_line_is_whole(header, lines.blocks.back())) return false;
+        if (!lines.terminated && passed == header.particles && !last_line_is_whole(header, lines.blocks.back()))
+            return false;
     }
     return true;
 }
@@ -99,7 +105,8 @@ void Indexer::collect_names(const DumpHeader& header, const LineBlock& block)
         last_name_ = std::string(words[column]);
         index_.type_names.insert(last_name_);
         if (index_.type_names.size() > most_type_names)
-            throw InputError(place(block.first_line + i), fmt::format("more than {} different names of types", most_type_names),
+            throw InputError(place(block.first_line + i),
+                             fmt::format("more than {} different names of types", most_type_names),
                              "the names of a few types in column " + in_quotes(header.columns->names[column]));
     }
 }
@@ -133,7 +140,8 @@ DumpFileIndex index_dump_file(const std::filesystem::path& path, size_t keep, co
     LineReader reader(std::move(source));
     Indexer(reader, index, update, progress).run();
     if (index.frames.empty() && !index.truncation)
-        index.truncation = InputError(path.string(), "an empty file", "ITEM: TIMESTEP", "has the simulation written anything yet?");
+        index.truncation =
+            InputError(path.string(), "an empty file", "ITEM: TIMESTEP", "has the simulation written anything yet?");
     if (packed) index.text = reader.source().kept();
     return index;
 }

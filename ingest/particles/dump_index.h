@@ -1,7 +1,7 @@
 #pragma once
 
-#include "ingest/particles/dump_header.h"
 #include "base/progress.h"
+#include "ingest/particles/dump_header.h"
 
 #include <functional>
 #include <memory>
@@ -15,8 +15,8 @@ namespace scree {
 /// Where the frames of one dump file are.
 struct DumpFileIndex {
     std::vector<DumpHeader> frames;
-    std::optional<InputError> truncation;    ///< why the last frame, which is not in `frames`, is not whole
-    std::vector<std::string> notes;          ///< what a reader should know, without the file's name
+    std::optional<InputError> truncation; ///< why the last frame, which is not in `frames`, is not whole
+    std::vector<std::string> notes; ///< what a reader should know, without the file's name
     std::set<std::string, std::less<>> type_names; ///< of the frames whose types are told by name only
     std::shared_ptr<const std::string> text; ///< the whole unpacked file, when it was packed and not too large to keep
 };

@@ -13,10 +13,7 @@ namespace scree {
 
 namespace {
 
-bool is_digit(char c)
-{
-    return c >= '0' && c <= '9';
-}
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Less by name, runs of digits compared as numbers.
 bool natural_less(const std::string& a, const std::string& b)
@@ -125,7 +122,9 @@ std::vector<std::filesystem::path> files_of_pattern(const std::string& pattern)
         files = glob_matches(pattern);
     }
     if (!is_pattern) return {pattern}; // opening it tells what is wrong
-    if (files.empty()) throw InputError(pattern, "no file that matches", "at least one file", "patterns are * ? [ab] or %d %04d; quote them from the shell");
+    if (files.empty())
+        throw InputError(pattern, "no file that matches", "at least one file",
+                         "patterns are * ? [ab] or %d %04d; quote them from the shell");
     std::ranges::sort(files, [](const auto& a, const auto& b) { return natural_less(a.string(), b.string()); });
     return files;
 }

@@ -17,10 +17,7 @@ namespace {
 // Places relative to the middle are used as float; farther out there is nothing to see anyway.
 constexpr double farthest = 1e37;
 
-bool ends_word(char c)
-{
-    return static_cast<unsigned char>(c) <= ' ';
-}
+bool ends_word(char c) { return static_cast<unsigned char>(c) <= ' '; }
 
 const char* skip_blanks(const char* p)
 {
@@ -95,7 +92,8 @@ struct DumpRowParser::Row {
     const char* start = nullptr;
 };
 
-DumpRowParser::DumpRowParser(const DumpHeader& header, const std::vector<std::string>& type_names, std::string file, ParticleFrame& frame)
+DumpRowParser::DumpRowParser(const DumpHeader& header, const std::vector<std::string>& type_names, std::string file,
+                             ParticleFrame& frame)
     : header_(header), columns_(*header.columns), type_names_(type_names), file_(std::move(file)), frame_(frame)
 {
     if (!columns_.any_scaled()) return;
@@ -104,11 +102,13 @@ DumpRowParser::DumpRowParser(const DumpHeader& header, const std::vector<std::st
     Imath::M33d system;
     for (int axis = 0; axis < 3; ++axis)
         for (int k = 0; k < 3; ++k)
-            system[axis][k] = columns_.scaled[static_cast<size_t>(axis)] ? (axis == k) : edges[static_cast<size_t>(k)][axis];
+            system[axis][k] =
+                columns_.scaled[static_cast<size_t>(axis)] ? (axis == k) : edges[static_cast<size_t>(k)][axis];
     try {
         to_fractions_ = system.inverse(true);
     } catch (const std::exception&) {
-        throw InputError(fmt::format("{}:{}", file_, header.atoms_line - 1), "coordinates of which some are scaled, in a box that does not tell the others",
+        throw InputError(fmt::format("{}:{}", file_, header.atoms_line - 1),
+                         "coordinates of which some are scaled, in a box that does not tell the others",
                          "a box with a volume, and all of xs ys zs or all of x y z");
     }
 }
@@ -118,10 +118,13 @@ size_t DumpRowParser::column_of(DumpField field) const
     return static_cast<size_t>(std::ranges::find(columns_.fields, field) - columns_.fields.begin());
 }
 
-void DumpRowParser::fail(uint64_t line, size_t column, std::string_view word, const std::string& expected, const std::string& hint) const
+void DumpRowParser::fail(uint64_t line, size_t column, std::string_view word, const std::string& expected,
+                         const std::string& hint) const
 {
-    throw InputError(fmt::format("{}:{}", file_, line),
-                     fmt::format("{} in column {} ({})", in_quotes(word), column + 1, in_quotes(columns_.names.at(column))), expected, hint);
+    throw InputError(
+        fmt::format("{}:{}", file_, line),
+        fmt::format("{} in column {} ({})", in_quotes(word), column + 1, in_quotes(columns_.names.at(column))),
+        expected, hint);
 }
 
 void DumpRowParser::fail_columns(const LineBlock& block, uint64_t line, const char* line_start) const
@@ -130,7 +133,8 @@ void DumpRowParser::fail_columns(const LineBlock& block, uint64_t line, const ch
     const char* const block_end = block.text.data() + block.text.size();
     while (end < block_end && *end != '\n') ++end;
     const std::string_view text(line_start, static_cast<size_t>(end - line_start));
-    throw InputError(fmt::format("{}:{}", file_, line), fmt::format("{} columns: {}", split_words(text).size(), in_quotes(text)),
+    throw InputError(fmt::format("{}:{}", file_, line),
+                     fmt::format("{} columns: {}", split_words(text).size(), in_quotes(text)),
                      fmt::format("{} columns: {}", columns_.names.size(), join_words(columns_.names)));
 }
 
@@ -142,7 +146,8 @@ void DumpRowParser::fail_place(const Row& row, uint64_t line, const Imath::V3d& 
     const size_t column = column_of(fields[static_cast<size_t>(axis)]);
     const char* p = skip_blanks(row.start);
     for (size_t i = 0; i < column; ++i) p = skip_blanks(skip_word(p));
-    fail(line, column, {p, static_cast<size_t>(skip_word(p) - p)}, "a finite number below 1e37", "did the simulation blow up?");
+    fail(line, column, {p, static_cast<size_t>(skip_word(p) - p)}, "a finite number below 1e37",
+         "did the simulation blow up?");
 }
 
 int32_t DumpRowParser::type_of_name(std::string_view name) const
@@ -187,9 +192,10 @@ void DumpRowParser::store(const Row& row, uint64_t index, uint64_t line) const
     const double largest = std::max({std::abs(w), std::abs(x), std::abs(y), std::abs(z)});
     Imath::Quatf turn; // LAMMPS writes zeros for grains that have no orientation: they keep the identity
     if (largest > 0) {
-        const double length = largest * std::hypot(std::hypot(w / largest, x / largest), std::hypot(y / largest, z / largest));
-        turn = Imath::Quatf(static_cast<float>(w / length), static_cast<float>(x / length), static_cast<float>(y / length),
-                            static_cast<float>(z / length));
+        const double length =
+            largest * std::hypot(std::hypot(w / largest, x / largest), std::hypot(y / largest, z / largest));
+        turn = Imath::Quatf(static_cast<float>(w / length), static_cast<float>(x / length),
+                            static_cast<float>(y / length), static_cast<float>(z / length));
     }
     frame_.orientation[index] = turn;
 }
@@ -231,7 +237,8 @@ void DumpRowParser::parse(const LineBlock& block, uint64_t first_row) const
                 real(row.radius);
                 row.radius *= factor;
                 if (!(row.radius >= 0 && row.radius <= farthest))
-                    fail(line, column, text(), factor == 1 ? "a radius, finite and 0 or more" : "a diameter, finite and 0 or more");
+                    fail(line, column, text(),
+                         factor == 1 ? "a radius, finite and 0 or more" : "a diameter, finite and 0 or more");
                 break;
             case DumpField::type:
                 integer(row.type, "the number of a type, an integer");
@@ -245,13 +252,16 @@ void DumpRowParser::parse(const LineBlock& block, uint64_t first_row) const
             case DumpField::name:
                 p = skip_word(p);
                 row.type = type_of_name(text());
-                if (row.type == 0) fail(line, column, text(), "a name that was there when the file was opened", "has the file changed?");
+                if (row.type == 0)
+                    fail(line, column, text(), "a name that was there when the file was opened",
+                         "has the file changed?");
                 break;
             case DumpField::quat_w:
             case DumpField::quat_x:
             case DumpField::quat_y:
             case DumpField::quat_z: {
-                double& value = row.quaternion[static_cast<size_t>(fields[column]) - static_cast<size_t>(DumpField::quat_w)];
+                double& value =
+                    row.quaternion[static_cast<size_t>(fields[column]) - static_cast<size_t>(DumpField::quat_w)];
                 real(value);
                 if (!std::isfinite(value)) fail(line, column, text(), "a finite number");
                 break;

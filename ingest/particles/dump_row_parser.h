@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/line_reader.h"
 #include "ingest/particles/dump_header.h"
 #include "ingest/particles/particle_frame.h"
-#include "base/line_reader.h"
 
 #include <Imath/ImathMatrix.h>
 
@@ -15,7 +15,8 @@ namespace scree {
 class DumpRowParser {
 public:
     /// frame: the arrays to fill, already of the right size. All references must outlive the parser.
-    DumpRowParser(const DumpHeader& header, const std::vector<std::string>& type_names, std::string file, ParticleFrame& frame);
+    DumpRowParser(const DumpHeader& header, const std::vector<std::string>& type_names, std::string file,
+                  ParticleFrame& frame);
 
     /// Parses a block, whose first line is row first_row of the frame. Throws InputError at file:line.
     void parse(const LineBlock& block, uint64_t first_row) const;

@@ -1,7 +1,7 @@
 #include "ingest/particles/dump_rows.h"
 
-#include "ingest/particles/dump_row_parser.h"
 #include "base/text.h"
+#include "ingest/particles/dump_row_parser.h"
 
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -40,7 +40,8 @@ void parse_blocks(const DumpRowParser& parser, const LineBlocks& lines, uint64_t
 }
 
 /// Sizes an array in large pages: first touches and the scattered reads of sorting cost far less.
-template <class T> void resize_large(std::vector<T>& values, uint64_t count)
+template <class T>
+void resize_large(std::vector<T>& values, uint64_t count)
 {
     values.reserve(count);
     constexpr uintptr_t page = uintptr_t{1} << 21;
@@ -59,10 +60,12 @@ void resize(ParticleFrame& frame, const DumpColumns& columns, uint64_t count)
     if (columns.has_orientation) resize_large(frame.orientation, count);
 }
 
-[[noreturn]] void fail_duplicate(const std::string& file, const DumpHeader& header, uint64_t id, uint64_t first_row, uint64_t row)
+[[noreturn]] void fail_duplicate(const std::string& file, const DumpHeader& header, uint64_t id, uint64_t first_row,
+                                 uint64_t row)
 {
     throw InputError(fmt::format("{}:{}", file, header.atoms_line + row),
-                     fmt::format("id {} again, which line {} has already", id, header.atoms_line + first_row), "every id once in a frame",
+                     fmt::format("id {} again, which line {} has already", id, header.atoms_line + first_row),
+                     "every id once in a frame",
                      id == 0 ? "ids that are all 0 come from 'atom_modify id no': leave the column out" : "");
 }
 
@@ -88,7 +91,8 @@ std::vector<uint64_t> order_by_id(const std::vector<uint64_t>& id, const std::st
     }
     std::vector<uint64_t> order(id.size());
     for (uint64_t row = 0; row < order.size(); ++row) order[row] = row;
-    tbb::parallel_sort(order.begin(), order.end(), [&](uint64_t a, uint64_t b) { return id[a] != id[b] ? id[a] < id[b] : a < b; });
+    tbb::parallel_sort(order.begin(), order.end(),
+                       [&](uint64_t a, uint64_t b) { return id[a] != id[b] ? id[a] < id[b] : a < b; });
     uint64_t second = std::numeric_limits<uint64_t>::max(), before = 0;
     for (uint64_t i = 1; i < order.size(); ++i)
         if (id[order[i]] == id[order[i - 1]] && order[i] < second) {
@@ -99,7 +103,8 @@ std::vector<uint64_t> order_by_id(const std::vector<uint64_t>& id, const std::st
     return order;
 }
 
-template <class T> void apply_order(std::vector<T>& values, const std::vector<uint64_t>& order)
+template <class T>
+void apply_order(std::vector<T>& values, const std::vector<uint64_t>& order)
 {
     if (values.empty()) return;
     std::vector<T> sorted;
@@ -150,10 +155,12 @@ void give_radii(ParticleFrame& frame, const std::string& file, const DumpHeader&
         if (header.columns->has_name) list += fmt::format(" ({})", type_names.at(static_cast<size_t>(type - 1)));
         if (missing.size() <= 8) example += fmt::format(" {}=R", type);
     }
-    throw InputError(fmt::format("{}:{}", file, header.atoms_line - 1),
-                     fmt::format("no column of radii, and grains of type{} {} without one", missing.size() == 1 ? "" : "s", list),
-                     "a column radius or diameter, or a radius for every type",
-                     fmt::format("give one for all types: --radius R, or by type: --radius{}", example.empty() ? " TYPE=R ..." : example));
+    throw InputError(
+        fmt::format("{}:{}", file, header.atoms_line - 1),
+        fmt::format("no column of radii, and grains of type{} {} without one", missing.size() == 1 ? "" : "s", list),
+        "a column radius or diameter, or a radius for every type",
+        fmt::format("give one for all types: --radius R, or by type: --radius{}",
+                    example.empty() ? " TYPE=R ..." : example));
 }
 
 } // namespace
@@ -176,8 +183,10 @@ ParticleFrame read_dump_rows(LineReader& reader, const DumpHeader& header, const
         if (progress.cancelled()) throw Cancelled();
         const LineBlocks lines = reader.next_block(header.particles - row, "ITEM:");
         if (lines.lines == 0)
-            throw InputError(fmt::format("{}:{}", file, header.atoms_line + row), fmt::format("the end of the frame after {} lines of atoms", row),
-                             fmt::format("{} lines of atoms", header.particles), "has the file changed since it was opened?");
+            throw InputError(fmt::format("{}:{}", file, header.atoms_line + row),
+                             fmt::format("the end of the frame after {} lines of atoms", row),
+                             fmt::format("{} lines of atoms", header.particles),
+                             "has the file changed since it was opened?");
         parse_blocks(parser, lines, row);
         row += lines.lines;
         progress.update("read particles", double(row) / double(header.particles));

@@ -1,9 +1,9 @@
 #include "ingest/particles/dump_series.h"
 
+#include "base/error.h"
 #include "ingest/particles/dump_index.h"
 #include "ingest/particles/dump_pattern.h"
 #include "ingest/particles/dump_rows.h"
-#include "base/error.h"
 
 #include <fmt/format.h>
 
@@ -50,7 +50,8 @@ struct DumpSeries::Impl {
     {
         if (index < frames.size()) return frames[index];
         throw InputError(pattern, fmt::format("frame {}", index),
-                         frames.size() == 1 ? "frame 0, the only one" : fmt::format("a frame from 0 to {}", frames.size() - 1));
+                         frames.size() == 1 ? "frame 0, the only one"
+                                            : fmt::format("a frame from 0 to {}", frames.size() - 1));
     }
 
     std::unique_ptr<LineReader> reader_at(const FrameEntry& entry);
@@ -74,8 +75,8 @@ std::unique_ptr<LineReader> DumpSeries::Impl::reader_at(const FrameEntry& entry)
     const std::filesystem::path& path = files[entry.file].path;
     if (!reader) reader = std::make_unique<LineReader>(text ? ByteSource(path, text) : ByteSource(path));
     if (!reader->skip_to(offset, entry.header.atoms_line))
-        throw InputError(fmt::format("{}:{}", path.string(), entry.header.atoms_line), "the end of the file", "the atoms of the frame",
-                         "has the file changed since it was opened?");
+        throw InputError(fmt::format("{}:{}", path.string(), entry.header.atoms_line), "the end of the file",
+                         "the atoms of the frame", "has the file changed since it was opened?");
     return reader;
 }
 
@@ -103,7 +104,9 @@ void DumpSeries::Impl::add_files(const std::vector<std::filesystem::path>& paths
     std::set<std::string, std::less<>> names;
     size_t room = kept_bytes;
     for (size_t i = 0; i < paths.size(); ++i) {
-        const auto update = [&](double fraction) { progress.update("find frames", (double(i) + fraction) / double(paths.size())); };
+        const auto update = [&](double fraction) {
+            progress.update("find frames", (double(i) + fraction) / double(paths.size()));
+        };
         DumpFileIndex index = index_dump_file(paths[i], room, update, progress);
         if (index.text) room -= std::min(room, index.text->size());
         if (index.truncation && !truncation) truncation = index.truncation;
@@ -127,8 +130,8 @@ void DumpSeries::Impl::add_files(const std::vector<std::filesystem::path>& paths
         std::string list;
         for (size_t i = 0; i < std::min<size_t>(type_names.size(), 12); ++i)
             list += fmt::format("{}{} = {}", i == 0 ? "" : ", ", i + 1, type_names[i]);
-        warnings.push_back(fmt::format("{}: no column 'type': types are the names in alphabetical order: {}{}", pattern, list,
-                                       type_names.size() > 12 ? ", ..." : ""));
+        warnings.push_back(fmt::format("{}: no column 'type': types are the names in alphabetical order: {}{}", pattern,
+                                       list, type_names.size() > 12 ? ", ..." : ""));
     }
 }
 
@@ -137,8 +140,8 @@ void DumpSeries::Impl::check_steps()
 {
     for (size_t i = 1; i < frames.size(); ++i) {
         if (frames[i].header.step != frames[i - 1].header.step) continue;
-        warnings.push_back(fmt::format("{}: step {} comes twice, as frames {} and {}", files[frames[i].file].path.string(),
-                                       frames[i].header.step, i - 1, i));
+        warnings.push_back(fmt::format("{}: step {} comes twice, as frames {} and {}",
+                                       files[frames[i].file].path.string(), frames[i].header.step, i - 1, i));
         return;
     }
 }
@@ -161,10 +164,16 @@ size_t DumpSeries::frame_count() const { return impl_->frames.size(); }
 int64_t DumpSeries::step(size_t frame) const { return impl_->frame(frame).header.step; }
 uint64_t DumpSeries::particle_count(size_t frame) const { return impl_->frame(frame).header.particles; }
 std::optional<double> DumpSeries::time(size_t frame) const { return impl_->frame(frame).header.time; }
-const std::vector<std::string>& DumpSeries::columns(size_t frame) const { return impl_->frame(frame).header.columns->names; }
+const std::vector<std::string>& DumpSeries::columns(size_t frame) const
+{
+    return impl_->frame(frame).header.columns->names;
+}
 bool DumpSeries::has_radius(size_t frame) const { return impl_->frame(frame).header.columns->has_radius; }
 const std::vector<std::string>& DumpSeries::type_names() const { return impl_->type_names; }
-const std::filesystem::path& DumpSeries::file(size_t frame) const { return impl_->files[impl_->frame(frame).file].path; }
+const std::filesystem::path& DumpSeries::file(size_t frame) const
+{
+    return impl_->files[impl_->frame(frame).file].path;
+}
 const std::vector<std::string>& DumpSeries::warnings() const { return impl_->warnings; }
 
 ParticleFrame DumpSeries::read(size_t frame, const DumpReadOptions& options, const Progress& progress) const

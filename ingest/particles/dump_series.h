@@ -1,7 +1,7 @@
 #pragma once
 
-#include "ingest/particles/particle_frame.h"
 #include "base/progress.h"
+#include "ingest/particles/particle_frame.h"
 
 #include <filesystem>
 #include <map>
@@ -14,7 +14,7 @@ namespace scree {
 
 /// How spheres get their radius when a dump has no `radius` or `diameter` column.
 struct DumpReadOptions {
-    std::optional<double> radius;             ///< for every type
+    std::optional<double> radius; ///< for every type
     std::map<int32_t, double> radius_of_type; ///< takes precedence over `radius`
 };
 

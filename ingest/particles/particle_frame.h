@@ -28,18 +28,18 @@ struct SimulationBox {
 /// Sorted by id when the file has ids; without ids, id is the row (0, 1, ...). Identity (and with it grain type
 /// and rotation) follows the id. All arrays have `size()` entries, but `orientation`, which may be empty.
 struct ParticleFrame {
-    std::vector<Imath::V3d> position;       ///< centres, in the file's frame, as double
-    std::vector<float> radius;              ///< >= 0 and finite
-    std::vector<int32_t> type;              ///< the file's own type number; 1 where the file has none
+    std::vector<Imath::V3d> position; ///< centres, in the file's frame, as double
+    std::vector<float> radius; ///< >= 0 and finite
+    std::vector<int32_t> type; ///< the file's own type number; 1 where the file has none
     std::vector<uint64_t> id;
-    std::vector<Imath::Quatf> orientation;  ///< unit quaternions (w, x, y, z), or empty
-    bool has_ids = false;                   ///< whether the ids come from the file
+    std::vector<Imath::Quatf> orientation; ///< unit quaternions (w, x, y, z), or empty
+    bool has_ids = false; ///< whether the ids come from the file
 
     std::optional<SimulationBox> box;
-    std::optional<Imath::Box3d> domain;     ///< bounds of the mesh the spheres were packed into, where a fill was listed
+    std::optional<Imath::Box3d> domain; ///< bounds of the mesh the spheres were packed into, where a fill was listed
     int64_t step = 0;
     std::optional<double> time;
-    std::string units;                      ///< LAMMPS unit style ("lj", "si", ...), empty when unknown
+    std::string units; ///< LAMMPS unit style ("lj", "si", ...), empty when unknown
 
     /// A point near the middle of the spheres; positions relative to it keep their precision as float.
     Imath::V3d origin{0};

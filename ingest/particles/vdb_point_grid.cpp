@@ -39,7 +39,8 @@ double default_voxel(const ParticleFrame& frame)
 }
 
 template <class T>
-void add_attribute(points::PointDataGrid& grid, const openvdb::tools::PointIndexGrid& index, const char* name, const std::vector<T>& values)
+void add_attribute(points::PointDataGrid& grid, const openvdb::tools::PointIndexGrid& index, const char* name,
+                   const std::vector<T>& values)
 {
     points::appendAttribute(grid.tree(), name, points::TypedAttributeArray<T>::attributeType());
     const points::PointAttributeVector<T> wrapped(values);
@@ -69,7 +70,8 @@ void add_metadata(points::PointDataGrid& grid, const ParticleFrame& frame)
 
 } // namespace
 
-points::PointDataGrid::Ptr make_point_grid(const ParticleFrame& frame, const std::string& name, const std::string& place, double voxel)
+points::PointDataGrid::Ptr make_point_grid(const ParticleFrame& frame, const std::string& name,
+                                           const std::string& place, double voxel)
 {
     openvdb::initialize();
     for (const uint64_t id : frame.id)

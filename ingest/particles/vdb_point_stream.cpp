@@ -13,7 +13,8 @@ namespace scree {
 
 namespace {
 
-/// OpenVDB's own writers want all grids at once; the parts of the format are protected members that any archive may use.
+/// OpenVDB's own writers want all grids at once; the parts of the format are protected members that any archive may
+/// use.
 class GrowingArchive : public openvdb::io::Archive {
 public:
     Ptr copy() const override { return std::make_shared<GrowingArchive>(*this); }
@@ -32,7 +33,10 @@ public:
         openvdb::io::GridDescriptor descriptor(grid->getName(), grid->type(), grid->saveFloatAsHalf());
         writeGrid(descriptor, grid, out, true);
     }
-    static void write_count(std::ostream& out, int32_t grids) { out.write(reinterpret_cast<const char*>(&grids), sizeof(grids)); }
+    static void write_count(std::ostream& out, int32_t grids)
+    {
+        out.write(reinterpret_cast<const char*>(&grids), sizeof(grids));
+    }
 };
 
 } // namespace
@@ -49,7 +53,8 @@ struct VdbPointStream::Impl {
     {
         if (!out) throw InputError(path.string(), "a disk that is full or cannot be written", "room for the points");
     }
-    template <class Work> void write(const Work& work)
+    template <class Work>
+    void write(const Work& work)
     {
         try {
             work();
@@ -60,7 +65,8 @@ struct VdbPointStream::Impl {
     }
 };
 
-VdbPointStream::VdbPointStream(const std::filesystem::path& path, double voxel) : impl_(new Impl{path, voxel, {}, {}, {}})
+VdbPointStream::VdbPointStream(const std::filesystem::path& path, double voxel)
+    : impl_(new Impl{path, voxel, {}, {}, {}})
 {
     openvdb::initialize();
     impl_->out.open(path, std::ios::binary | std::ios::trunc);

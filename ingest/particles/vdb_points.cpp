@@ -22,7 +22,8 @@ using Orientation = openvdb::math::Quat<float>;
 
 Imath::V3d from_vdb(const Vec3d& v) { return {v.x(), v.y(), v.z()}; }
 
-template <class T> std::optional<T> metadata(const openvdb::GridBase& grid, const std::string& name)
+template <class T>
+std::optional<T> metadata(const openvdb::GridBase& grid, const std::string& name)
 {
     const auto value = grid.getMetadata<openvdb::TypedMetadata<T>>(name);
     return value ? std::optional<T>(value->value()) : std::nullopt;
@@ -58,11 +59,13 @@ std::vector<std::string> names_of_points(openvdb::io::File& file)
     return names;
 }
 
-std::vector<points::PointDataGrid::Ptr> grids_called(openvdb::io::File& file, const std::string& place, const std::string& wanted)
+std::vector<points::PointDataGrid::Ptr> grids_called(openvdb::io::File& file, const std::string& place,
+                                                     const std::string& wanted)
 {
     file.open();
     const std::vector<std::string> names = names_of_points(file);
-    if (names.empty()) throw InputError(place, "no grid of points", what_is_needed, "density and distance fields are no particles");
+    if (names.empty())
+        throw InputError(place, "no grid of points", what_is_needed, "density and distance fields are no particles");
     const std::string& first = wanted.empty() ? names[0] : wanted;
     std::vector<points::PointDataGrid::Ptr> grids;
     for (const std::string& name : names) { // with those that VdbPointStream added
@@ -70,17 +73,23 @@ std::vector<points::PointDataGrid::Ptr> grids_called(openvdb::io::File& file, co
         grids.push_back(openvdb::gridPtrCast<points::PointDataGrid>(file.readGrid(name)));
     }
     if (grids.empty())
-        throw InputError(place, "grids of points " + join_words(names), fmt::format("a PointDataGrid '{}'{}", wanted, did_you_mean(wanted, names)));
+        throw InputError(place, "grids of points " + join_words(names),
+                         fmt::format("a PointDataGrid '{}'{}", wanted, did_you_mean(wanted, names)));
     return grids;
 }
 
 /// Copies one leaf's points to the end of the frame.
-void append_leaf(const points::PointDataTree::LeafNodeType& leaf, const points::PointDataGrid& grid, const std::string& place, ParticleFrame& frame)
+void append_leaf(const points::PointDataTree::LeafNodeType& leaf, const points::PointDataGrid& grid,
+                 const std::string& place, ParticleFrame& frame)
 {
     const auto& descriptor = leaf.attributeSet().descriptor();
-    const auto has = [&](const char* name, const auto& type) { return descriptor.find(name) != points::AttributeSet::INVALID_POS && leaf.constAttributeArray(name).valueType() == type; };
+    const auto has = [&](const char* name, const auto& type) {
+        return descriptor.find(name) != points::AttributeSet::INVALID_POS &&
+               leaf.constAttributeArray(name).valueType() == type;
+    };
     if (!has("P", "vec3s")) throw InputError(place, "points without P as vec3s", "places of 32-bit floats");
-    if (!has("pscale", "float")) throw InputError(place, "points without float pscale", "the radius of each point as float pscale");
+    if (!has("pscale", "float"))
+        throw InputError(place, "points without float pscale", "the radius of each point as float pscale");
     const points::AttributeHandle<openvdb::Vec3f> position(leaf.constAttributeArray("P"));
     const points::AttributeHandle<float> radius(leaf.constAttributeArray("pscale"));
     std::optional<points::AttributeHandle<int32_t>> type;
@@ -95,7 +104,8 @@ void append_leaf(const points::PointDataTree::LeafNodeType& leaf, const points::
         const Imath::V3d p = from_vdb(grid.transform().indexToWorld(voxel));
         const float r = radius.get(*i);
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) || !(r >= 0) || !std::isfinite(r))
-            throw InputError(place, fmt::format("a point at ({}, {}, {}) of radius {}", p.x, p.y, p.z, r), "finite places, and radii of 0 or more");
+            throw InputError(place, fmt::format("a point at ({}, {}, {}) of radius {}", p.x, p.y, p.z, r),
+                             "finite places, and radii of 0 or more");
         frame.position.push_back(p);
         frame.radius.push_back(r);
         frame.type.push_back(type ? type->get(*i) : 1);
@@ -107,7 +117,8 @@ void append_leaf(const points::PointDataTree::LeafNodeType& leaf, const points::
     }
 }
 
-template <class T> void reorder(std::vector<T>& values, const std::vector<size_t>& order)
+template <class T>
+void reorder(std::vector<T>& values, const std::vector<size_t>& order)
 {
     if (values.size() != order.size()) return;
     std::vector<T> sorted(values.size());
@@ -137,7 +148,8 @@ void finish(ParticleFrame& frame, const std::string& place)
 namespace {
 
 /// Runs `work` on the file and makes what OpenVDB throws an error of ours.
-template <class Work> auto with_file(const std::filesystem::path& path, const Work& work)
+template <class Work>
+auto with_file(const std::filesystem::path& path, const Work& work)
 {
     openvdb::initialize();
     try {

@@ -22,7 +22,8 @@ struct NamedPoints {
     ParticleFrame frame;
 };
 
-/// The same with several grids, in this order; each name once. Programs that look for one grid take the first, or "points".
+/// The same with several grids, in this order; each name once. Programs that look for one grid take the first, or
+/// "points".
 void write_vdb_points(std::span<const NamedPoints> grids, const std::filesystem::path& path);
 
 /// Reads the first PointDataGrid of a file, sorted by id where it has ids.

@@ -1,12 +1,12 @@
-// Evaluations a second of every kind of mixture on one core, through the virtual call as the renderer makes them, and the
-// time to load explicit types of ten million spheres.
+// Evaluations a second of every kind of mixture on one core, through the virtual call as the renderer makes them, and
+// the time to load explicit types of ten million spheres.
 //
 //   mixture_bench [SPHERES]
 
+#include "base/hash.h"
 #include "base/json.h"
 #include "ingest/particles/vdb_points.h"
 #include "mixtures/explicit_mixture.h"
-#include "base/hash.h"
 #include "mixtures/make_mixture.h"
 #include "mixtures/read_mixture.h"
 #include "mixtures/type_table.h"
@@ -39,7 +39,8 @@ ParticleFrame random_spheres(size_t count)
     frame.id.resize(count);
     std::iota(frame.id.begin(), frame.id.end(), uint64_t{1});
     for (size_t i = 0; i < count; ++i) {
-        for (unsigned a = 0; a < 3; ++a) frame.position[i][static_cast<int>(a)] = 100 * unit_double(hash_index(i, 1, a));
+        for (unsigned a = 0; a < 3; ++a)
+            frame.position[i][static_cast<int>(a)] = 100 * unit_double(hash_index(i, 1, a));
         frame.radius[i] = static_cast<float>(0.1 + unit_double(hash_index(i, 1, 3)));
         frame.type[i] = static_cast<int32_t>(1 + hash_index(i, 1, 4) % 3);
     }
@@ -65,10 +66,12 @@ void bench_kinds(const ParticleFrame& frame, const std::filesystem::path& folder
         {"perlin, 1 octave", R"({"kind": "perlin", "types": ["a", "b"], "scale": 7})"},
         {"perlin, 4 octaves", R"({"kind": "perlin", "types": ["a", "b"], "scale": 7, "octaves": 4})"},
         {"checkerboard", R"({"kind": "checkerboard", "types": ["a", "b"], "cell": 7})"},
-        {"checkerboard, turned", R"({"kind": "checkerboard", "types": ["a", "b"], "cell": 7, "rotation": [10, 20, 30]})"},
+        {"checkerboard, turned",
+         R"({"kind": "checkerboard", "types": ["a", "b"], "cell": 7, "rotation": [10, 20, 30]})"},
         {"checkerboard, 3 types", R"({"kind": "checkerboard", "types": ["a", "b", "c"], "cell": 7})"},
         {"layers", R"({"kind": "layers", "types": ["a", "b", "c"], "thicknesses": [1, 2, 3]})"},
-        {"layers, jitter", R"({"kind": "layers", "types": ["a", "b"], "thicknesses": 2, "jitter": {"amplitude": 1, "scale": 5}})"},
+        {"layers, jitter",
+         R"({"kind": "layers", "types": ["a", "b"], "thicknesses": 2, "jitter": {"amplitude": 1, "scale": 5}})"},
         {"radius", R"({"kind": "radius", "types": ["a", "b"], "thresholds": [0.5]})"},
         {"grid", R"({"kind": "grid", "fields": [{"type": "a", "file": "c.vdb"}], "rest": "b"})"},
         {"blend", R"({"kind": "blend", "by": {"kind": "checkerboard", "types": ["m", "n"], "cell": 9},
@@ -88,8 +91,8 @@ void bench_kinds(const ParticleFrame& frame, const std::filesystem::path& folder
             best = std::min(best, seconds([&] {
                                 for (size_t i = 0; i < places.size(); ++i) sum += mixture->type(i, places[i]);
                             }));
-        fmt::print("{:<24}{:>14.1f}{:>14.3f}   ({:.3f})\n", name, 1e-6 * static_cast<double>(places.size()) / best, making,
-                   static_cast<double>(sum) / static_cast<double>(5 * places.size()));
+        fmt::print("{:<24}{:>14.1f}{:>14.3f}   ({:.3f})\n", name, 1e-6 * static_cast<double>(places.size()) / best,
+                   making, static_cast<double>(sum) / static_cast<double>(5 * places.size()));
     }
 }
 
@@ -106,10 +109,14 @@ void bench_tables(const ParticleFrame& frame, const std::filesystem::path& folde
 
     fmt::print("\nexplicit types of {} spheres\n", frame.size());
     const auto load = [&](const char* file) {
-        const double time = seconds([&] { mixture_from_table(read_type_table(folder / file), {0, 1, 2}, frame, file); });
+        const double time = seconds([&] {
+            mixture_from_table(read_type_table(folder / file), {0, 1, 2}, frame, file);
+        });
         fmt::print("{:<24}{:>14.3f} s\n", file, time);
     };
-    fmt::print("{:<24}{:>14.3f} s\n", "the dump's own", seconds([&] { mixture_from_frame(frame, {{1, 0}, {2, 1}, {3, 2}}, "dump"); }));
+    fmt::print("{:<24}{:>14.3f} s\n", "the dump's own", seconds([&] {
+                   mixture_from_frame(frame, {{1, 0}, {2, 1}, {3, 2}}, "dump");
+               }));
     load("types.csv");
     load("types.vdb");
 }

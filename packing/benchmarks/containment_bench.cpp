@@ -21,12 +21,14 @@ double seconds_since(std::chrono::steady_clock::time_point start)
 
 V3d random_place(const Imath::Box3d& box, uint64_t index)
 {
-    const V3d u(unit_double(hash_index(index, 1, 0)), unit_double(hash_index(index, 1, 1)), unit_double(hash_index(index, 1, 2)));
+    const V3d u(unit_double(hash_index(index, 1, 0)), unit_double(hash_index(index, 1, 1)),
+                unit_double(hash_index(index, 1, 2)));
     return box.min + u * (box.max - box.min);
 }
 
 /// Microseconds a call, the best of three runs; prints how many were true beside it.
-template <class Ask> void time_questions(const char* name, uint64_t count, const Ask& ask)
+template <class Ask>
+void time_questions(const char* name, uint64_t count, const Ask& ask)
 {
     double best = 1e30;
     uint64_t yes = 0;
@@ -55,8 +57,10 @@ void measure(const char* name, const TriangleMesh& mesh)
     for (const double radius : {0.0005, 0.002, 0.01, 0.05})
         time_questions(fmt::format("contains_sphere, r = {} size", radius).c_str(), n,
                        [&](uint64_t k) { return domain.contains_sphere(random_place(bounds, k), radius * size); });
-    time_questions("contains_sphere, 0.002, inside", inside.size(), [&](uint64_t k) { return domain.contains_sphere(inside[k], 0.002 * size); });
-    time_questions("distance", n / 4, [&](uint64_t k) { return domain.distance(random_place(bounds, k)) > 0.1 * size; });
+    time_questions("contains_sphere, 0.002, inside", inside.size(),
+                   [&](uint64_t k) { return domain.contains_sphere(inside[k], 0.002 * size); });
+    time_questions("distance", n / 4,
+                   [&](uint64_t k) { return domain.distance(random_place(bounds, k)) > 0.1 * size; });
 }
 
 } // namespace

@@ -32,7 +32,8 @@ void append(const ProceduralFill& fill, uint64_t cell, const std::vector<uint64_
 
 } // namespace
 
-void list_fill(const ProceduralFill& fill, uint64_t batch, const std::function<void(const ParticleFrame&)>& take, const Progress& progress)
+void list_fill(const ProceduralFill& fill, uint64_t batch, const std::function<void(const ParticleFrame&)>& take,
+               const Progress& progress)
 {
     const uint64_t cells = fill.cell_count();
     const uint64_t at_once = std::max<uint64_t>(1, batch / (4 * fill.tile().rows()));

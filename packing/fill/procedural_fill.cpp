@@ -15,13 +15,13 @@ namespace scree {
 namespace {
 
 constexpr uint64_t kinds_kept = uint64_t{1} << 24;
-// Voxels along the domain. Light that comes back from a fill has seldom been deeper than some ten spheres: where those are
-// small beside a voxel the field only sorts cells, and where they are not, this many settle most of the rest.
+// Voxels along the domain. Light that comes back from a fill has seldom been deeper than some ten spheres: where those
+// are small beside a voxel the field only sorts cells, and where they are not, this many settle most of the rest.
 constexpr int field_cells = 96;
 constexpr uint64_t variant_stream = 0x74696c6573ull; // "tiles"
 
-/// Found by random search: the lattice vectors up to 9.5 cells long stay 0.1748 of a cell away from the lines through 0 along
-/// the axes and the face and space diagonals of the scene.
+/// Found by random search: the lattice vectors up to 9.5 cells long stay 0.1748 of a cell away from the lines through 0
+/// along the axes and the face and space diagonals of the scene.
 Imath::M33d generic_rotation()
 {
     const Imath::Quatd q = Imath::Quatd(0.8753, 0.4274, 0.1632, 0.1565).normalized();
@@ -37,7 +37,8 @@ Imath::V3d snap(const Imath::V3d& p, double step, double inverse)
 
 } // namespace
 
-ProceduralFill::ProceduralFill(std::shared_ptr<const Domain> domain, std::shared_ptr<const PackingTile> tile, const FillOptions& options)
+ProceduralFill::ProceduralFill(std::shared_ptr<const Domain> domain, std::shared_ptr<const PackingTile> tile,
+                               const FillOptions& options)
     : domain_(std::move(domain)), tile_(std::move(tile)), field_(*domain_, field_cells),
       near_surface_(*domain_, tile_->largest_radius() * (options.radius / tile_->mean_radius()) * (1 + 0x1p-20))
 {
@@ -58,8 +59,10 @@ ProceduralFill::ProceduralFill(std::shared_ptr<const Domain> domain, std::shared
     // A sphere of the fill has its centre in the bounds: in the box of the lattice around them.
     Imath::V3d lo(std::numeric_limits<double>::infinity()), hi(-lo);
     for (int corner = 0; corner < 8; ++corner) {
-        const Imath::V3d p = to_lattice(Imath::V3d(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
-                                                   corner & 4 ? bounds.max.z : bounds.min.z) - origin_);
+        const Imath::V3d p =
+            to_lattice(Imath::V3d(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
+                                  corner & 4 ? bounds.max.z : bounds.min.z) -
+                       origin_);
         for (int axis = 0; axis < 3; ++axis) {
             lo[axis] = std::min(lo[axis], p[axis] / tile_->size[axis]);
             hi[axis] = std::max(hi[axis], p[axis] / tile_->size[axis]);
@@ -70,7 +73,9 @@ ProceduralFill::ProceduralFill(std::shared_ptr<const Domain> domain, std::shared
     const double ids = cells * static_cast<double>(tile_->rows());
     const double widest = std::max({std::abs(hi.x - lo.x), std::abs(hi.y - lo.y), std::abs(hi.z - lo.z)});
     if (!(ids < 0x1p62) || !(widest < 0x1p30)) {
-        throw InputError(domain_->place(), fmt::format("a radius of {} in bounds of {} x {} x {}", options.radius, bounds.size().x, bounds.size().y, bounds.size().z),
+        throw InputError(domain_->place(),
+                         fmt::format("a radius of {} in bounds of {} x {} x {}", options.radius, bounds.size().x,
+                                     bounds.size().y, bounds.size().z),
                          "a radius that makes fewer than 2^62 spheres", "is the radius in the unit of the mesh?");
     }
     for (size_t axis = 0; axis < 3; ++axis) { // one more on each side: rounding
@@ -90,13 +95,15 @@ FillCell ProceduralFill::cell_at(const Imath::V3d& lattice) const
 bool ProceduralFill::has(const FillCell& cell) const
 {
     // As unsigned, what lies before the first cell is far beyond the last.
-    return static_cast<uint64_t>(cell.x - first_[0]) < count_[0] && static_cast<uint64_t>(cell.y - first_[1]) < count_[1] &&
+    return static_cast<uint64_t>(cell.x - first_[0]) < count_[0] &&
+           static_cast<uint64_t>(cell.y - first_[1]) < count_[1] &&
            static_cast<uint64_t>(cell.z - first_[2]) < count_[2];
 }
 
 uint64_t ProceduralFill::number(const FillCell& cell) const
 {
-    return (static_cast<uint64_t>(cell.z - first_[2]) * count_[1] + static_cast<uint64_t>(cell.y - first_[1])) * count_[0] +
+    return (static_cast<uint64_t>(cell.z - first_[2]) * count_[1] + static_cast<uint64_t>(cell.y - first_[1])) *
+               count_[0] +
            static_cast<uint64_t>(cell.x - first_[0]);
 }
 
@@ -136,14 +143,17 @@ ProceduralFill::CellKind ProceduralFill::kind(uint64_t cell_number) const
         if (known != CellKind::unknown) return known;
     }
     const FillCell c = cell(cell_number);
-    const Imath::V3d middle((static_cast<double>(c.x) + 0.5) * tile_->size.x, (static_cast<double>(c.y) + 0.5) * tile_->size.y,
+    const Imath::V3d middle((static_cast<double>(c.x) + 0.5) * tile_->size.x,
+                            (static_cast<double>(c.y) + 0.5) * tile_->size.y,
                             (static_cast<double>(c.z) + 0.5) * tile_->size.z);
     const DistanceField::Interval distance = field_.signed_distance(origin_ + from_lattice(middle));
     // Every centre is within half the cell's diagonal of its middle, but for rounding, which 2^-20 is far above.
     const double reach = 0.5 * tile_->size.length() * scale_ * (1 + 0x1p-20);
     CellKind kind = CellKind::boundary;
-    if (distance.lo - reach >= largest_radius_ * (1 + 0x1p-20)) kind = CellKind::inside;
-    else if (distance.hi + reach < 0) kind = CellKind::outside;
+    if (distance.lo - reach >= largest_radius_ * (1 + 0x1p-20))
+        kind = CellKind::inside;
+    else if (distance.hi + reach < 0)
+        kind = CellKind::outside;
     if (kinds_) kinds_[cell_number].store(static_cast<uint8_t>(kind), std::memory_order_relaxed);
     return kind;
 }
@@ -168,7 +178,8 @@ bool ProceduralFill::decide(const Sphere& sphere) const
 
 double ProceduralFill::expected_count() const
 {
-    return domain_->volume() / (tile_->size.x * tile_->size.y * tile_->size.z * scale_ * scale_ * scale_) * static_cast<double>(tile_->rows());
+    return domain_->volume() / (tile_->size.x * tile_->size.y * tile_->size.z * scale_ * scale_ * scale_) *
+           static_cast<double>(tile_->rows());
 }
 
 uint64_t ProceduralFill::bytes() const

@@ -2,11 +2,10 @@
 
 #include "packing/solids/distance_field.h"
 #include "packing/solids/domain.h"
-#include "packing/tiles/packing_tile.h"
 #include "packing/solids/surface_cells.h"
+#include "packing/tiles/packing_tile.h"
 
 #include <Imath/ImathMatrix.h>
-
 
 #include <array>
 #include <atomic>
@@ -27,10 +26,11 @@ struct FillOptions {
 
 /// The whole spheres of an endlessly repeated tile that lie in a domain: described, never listed.
 ///
-/// The lattice of tiles stands at a fixed generic rotation about the middle of the domain's bounds: from any place, along an axis or
-/// a diagonal of the scene, it comes back no nearer than 0.17 of a cell within 9 cells. Which variant of the tile stands in a
-/// cell is a hash of the cell. A sphere's id is number(cell) * rows + row; places are multiples of a power of two from
-/// `origin`, so that a file of points holds them without loss. All answers may be asked from several threads.
+/// The lattice of tiles stands at a fixed generic rotation about the middle of the domain's bounds: from any place,
+/// along an axis or a diagonal of the scene, it comes back no nearer than 0.17 of a cell within 9 cells. Which variant
+/// of the tile stands in a cell is a hash of the cell. A sphere's id is number(cell) * rows + row; places are multiples
+/// of a power of two from `origin`, so that a file of points holds them without loss. All answers may be asked from
+/// several threads.
 class ProceduralFill {
 public:
     struct Sphere {
@@ -40,7 +40,8 @@ public:
     enum class CellKind : uint8_t { unknown, outside, boundary, inside };
 
     /// Throws InputError when the tile is too coarse or too fine for the domain to be counted in 62 bits.
-    ProceduralFill(std::shared_ptr<const Domain> domain, std::shared_ptr<const PackingTile> tile, const FillOptions& options);
+    ProceduralFill(std::shared_ptr<const Domain> domain, std::shared_ptr<const PackingTile> tile,
+                   const FillOptions& options);
 
     const Domain& domain() const { return *domain_; }
     const PackingTile& tile() const { return *tile_; }
@@ -78,7 +79,7 @@ public:
 
     /// What the distance field says of all the spheres whose centre is in the cell.
     CellKind kind(uint64_t cell_number) const;
-    /// Whether the sphere is in the fill: the whole of it in the domain. 
+    /// Whether the sphere is in the fill: the whole of it in the domain.
     bool is_whole(uint64_t cell_number, uint64_t row) const;
     /// The same, where the sphere is at hand.
     bool is_whole(uint64_t cell_number, uint64_t row, const Sphere& sphere) const;
@@ -101,7 +102,7 @@ private:
     Imath::M33d rotation_, to_lattice_, from_lattice_; // Imath multiplies row vectors from the left
     std::array<int64_t, 3> first_{}; // of the numbered cells
     std::array<uint64_t, 3> count_{};
-    uint64_t key_ = 0;               // of the hash that chooses variants
+    uint64_t key_ = 0; // of the hash that chooses variants
 
     // Cells by number, where they are few enough to be kept.
     mutable std::unique_ptr<std::atomic<uint8_t>[]> kinds_;

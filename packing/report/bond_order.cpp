@@ -28,13 +28,21 @@ void add_harmonics(const V3d& u, Harmonics4& q4, Harmonics6& q6)
 {
     const double c = u.z, c2 = c * c, c4 = c2 * c2;
     const double pi = std::numbers::pi;
-    static const std::array<double, 5> n4{3.0 / 16 * std::sqrt(1 / pi), 3.0 / 8 * std::sqrt(5 / pi), 3.0 / 8 * std::sqrt(5 / (2 * pi)),
-                                          3.0 / 8 * std::sqrt(35 / pi), 3.0 / 16 * std::sqrt(35 / (2 * pi))};
-    static const std::array<double, 7> n6{1.0 / 32 * std::sqrt(13 / pi),        1.0 / 16 * std::sqrt(273 / (2 * pi)), 1.0 / 64 * std::sqrt(1365 / pi),
-                                          1.0 / 32 * std::sqrt(1365 / pi),      3.0 / 32 * std::sqrt(91 / (2 * pi)),  3.0 / 32 * std::sqrt(1001 / pi),
+    static const std::array<double, 5> n4{3.0 / 16 * std::sqrt(1 / pi), 3.0 / 8 * std::sqrt(5 / pi),
+                                          3.0 / 8 * std::sqrt(5 / (2 * pi)), 3.0 / 8 * std::sqrt(35 / pi),
+                                          3.0 / 16 * std::sqrt(35 / (2 * pi))};
+    static const std::array<double, 7> n6{1.0 / 32 * std::sqrt(13 / pi),       1.0 / 16 * std::sqrt(273 / (2 * pi)),
+                                          1.0 / 64 * std::sqrt(1365 / pi),     1.0 / 32 * std::sqrt(1365 / pi),
+                                          3.0 / 32 * std::sqrt(91 / (2 * pi)), 3.0 / 32 * std::sqrt(1001 / pi),
                                           1.0 / 64 * std::sqrt(3003 / pi)};
     const std::array<double, 5> p4{35 * c4 - 30 * c2 + 3, c * (7 * c2 - 3), 7 * c2 - 1, c, 1};
-    const std::array<double, 7> p6{231 * c4 * c2 - 315 * c4 + 105 * c2 - 5, c * (33 * c4 - 30 * c2 + 5), 33 * c4 - 18 * c2 + 1, c * (11 * c2 - 3), 11 * c2 - 1, c, 1};
+    const std::array<double, 7> p6{231 * c4 * c2 - 315 * c4 + 105 * c2 - 5,
+                                   c * (33 * c4 - 30 * c2 + 5),
+                                   33 * c4 - 18 * c2 + 1,
+                                   c * (11 * c2 - 3),
+                                   11 * c2 - 1,
+                                   c,
+                                   1};
     std::complex<double> power = 1;
     const std::complex<double> xy(u.x, u.y);
     for (size_t m = 0; m <= 6; ++m, power *= xy) {
@@ -44,14 +52,16 @@ void add_harmonics(const V3d& u, Harmonics4& q4, Harmonics6& q6)
 }
 
 /// sum_m a_m conj(b_m) over -l..l.
-template <size_t N> double product(const std::array<std::complex<double>, N>& a, const std::array<std::complex<double>, N>& b)
+template <size_t N>
+double product(const std::array<std::complex<double>, N>& a, const std::array<std::complex<double>, N>& b)
 {
     double sum = (a[0] * std::conj(b[0])).real();
     for (size_t m = 1; m < N; ++m) sum += 2 * (a[m] * std::conj(b[m])).real();
     return sum;
 }
 
-template <size_t N> double order(const std::array<std::complex<double>, N>& q, double bonds)
+template <size_t N>
+double order(const std::array<std::complex<double>, N>& q, double bonds)
 {
     const double l = double(N - 1);
     return bonds > 0 ? std::sqrt(4 * std::numbers::pi / (2 * l + 1) * product(q, q)) / bonds : 0;
@@ -98,8 +108,10 @@ struct Count {
     void add(const Count& o) { count += o.count; }
 };
 
-/// Calls visit(neighbour) for the neighbours of sphere i; a sphere with thousands has nonsense for radii, and keeps the first.
-template <class Visit> void visit_neighbours(const PackedSpheres& spheres, uint64_t i, double stretch, const Visit& visit)
+/// Calls visit(neighbour) for the neighbours of sphere i; a sphere with thousands has nonsense for radii, and keeps the
+/// first.
+template <class Visit>
+void visit_neighbours(const PackedSpheres& spheres, uint64_t i, double stretch, const Visit& visit)
 {
     const double r = spheres.radius(i);
     size_t candidates = 0;
@@ -118,7 +130,8 @@ BondOrder measure_bond_order(const PackedSpheres& spheres, double number_density
     if (!(number_density > 0)) return result;
     // <(r_i + r_j)^3> = 2 <r^3> + 6 <r^2> <r>
     const RadiusMoments& moments = spheres.moments();
-    const double stretch = reach_in_spacings / std::cbrt(number_density * (2 * moments.m[3] + 6 * moments.m[2] * moments.m[1]));
+    const double stretch =
+        reach_in_spacings / std::cbrt(number_density * (2 * moments.m[3] + 6 * moments.m[2] * moments.m[1]));
     // All neighbours must be there, also where spheres end at a surface.
     const double margin = std::max(0.0, 2 * (stretch - 1) * spheres.largest_radius());
     const std::vector<uint64_t> block = spheres.central_block(most_spheres, margin);
@@ -151,28 +164,31 @@ BondOrder measure_bond_order(const PackedSpheres& spheres, double number_density
         }
         return part;
     });
-    const Count crystal = ordered_sum<Count>(block.size(), 1024, "crystal-like spheres", progress, [&](uint64_t begin, uint64_t end) {
-        Count part;
-        for (uint64_t k = begin; k < end; ++k) {
-            const uint64_t i = block[k];
-            size_t bonds = 0, solid = 0;
-            visit_neighbours(spheres, i, stretch, [&](const PackedSpheres::Neighbour& n) {
-                Compact other = q6[n.index];
-                if (!known[n.index]) { // at the block's edge
-                    Harmonics4 unused{};
-                    Harmonics6 q{};
-                    visit_neighbours(spheres, n.index, stretch, [&](const PackedSpheres::Neighbour& m) { add_harmonics(m.offset.normalized(), unused, q); });
-                    other = compact_of(q);
-                }
-                float agreement = (q6[i][0] * std::conj(other[0])).real();
-                for (size_t m = 1; m < other.size(); ++m) agreement += 2 * (q6[i][m] * std::conj(other[m])).real();
-                solid += agreement > static_cast<float>(solid_agreement);
-                ++bonds;
-            });
-            part.count += solid >= solid_bonds || (solid == bonds && solid >= fewest_bonds);
-        }
-        return part;
-    });
+    const Count crystal =
+        ordered_sum<Count>(block.size(), 1024, "crystal-like spheres", progress, [&](uint64_t begin, uint64_t end) {
+            Count part;
+            for (uint64_t k = begin; k < end; ++k) {
+                const uint64_t i = block[k];
+                size_t bonds = 0, solid = 0;
+                visit_neighbours(spheres, i, stretch, [&](const PackedSpheres::Neighbour& n) {
+                    Compact other = q6[n.index];
+                    if (!known[n.index]) { // at the block's edge
+                        Harmonics4 unused{};
+                        Harmonics6 q{};
+                        visit_neighbours(spheres, n.index, stretch, [&](const PackedSpheres::Neighbour& m) {
+                            add_harmonics(m.offset.normalized(), unused, q);
+                        });
+                        other = compact_of(q);
+                    }
+                    float agreement = (q6[i][0] * std::conj(other[0])).real();
+                    for (size_t m = 1; m < other.size(); ++m) agreement += 2 * (q6[i][m] * std::conj(other[m])).real();
+                    solid += agreement > static_cast<float>(solid_agreement);
+                    ++bonds;
+                });
+                part.count += solid >= solid_bonds || (solid == bonds && solid >= fewest_bonds);
+            }
+            return part;
+        });
     result.spheres = sum.spheres;
     result.bonds = sum.bonds;
     result.global_q4 = order(sum.q4, double(sum.bonds));

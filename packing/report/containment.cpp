@@ -1,8 +1,8 @@
 #include "packing/report/containment.h"
 
+#include "packing/report/ordered_sum.h"
 #include "packing/solids/distance_field.h"
 #include "packing/solids/domain.h"
-#include "packing/report/ordered_sum.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,9 @@ constexpr size_t most_told = 10;
 struct Part : Containment {
     void keep_worst()
     {
-        const auto less = [](const Sphere& a, const Sphere& b) { return a.margin != b.margin ? a.margin < b.margin : a.id < b.id; };
+        const auto less = [](const Sphere& a, const Sphere& b) {
+            return a.margin != b.margin ? a.margin < b.margin : a.id < b.id;
+        };
         const size_t kept = std::min(worst.size(), most_told);
         std::partial_sort(worst.begin(), worst.begin() + static_cast<std::ptrdiff_t>(kept), worst.end(), less);
         worst.resize(kept);
@@ -50,7 +52,8 @@ Containment check_containment(const PackedSpheres& spheres, const Progress& prog
             const bool whole = domain.contains_sphere(centre, r);
             part.outside += !whole;
             part.centre_outside += !whole && depth <= 0;
-            const double margin = depth - r, bin = std::floor((margin / r - Containment::bin_first) / Containment::bin_width);
+            const double margin = depth - r,
+                         bin = std::floor((margin / r - Containment::bin_first) / Containment::bin_width);
             if (bin < double(part.margins.size())) ++part.margins[static_cast<size_t>(std::max(bin, 0.0))];
             part.worst.push_back({spheres.id(i), centre, r, margin});
         }

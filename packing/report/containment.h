@@ -13,13 +13,14 @@ struct Containment {
         uint64_t id = 0;
         Imath::V3d position{0};
         double radius = 0;
-        double margin = 0; ///< signed distance of the centre from the surface, less the radius: negative where it sticks out
+        double margin =
+            0; ///< signed distance of the centre from the surface, less the radius: negative where it sticks out
     };
 
-    uint64_t outside = 0;        ///< spheres that are not whole inside, decided exactly
+    uint64_t outside = 0; ///< spheres that are not whole inside, decided exactly
     uint64_t centre_outside = 0; ///< of them those whose centre is outside
-    uint64_t asked = 0;          ///< spheres near enough to the surface that the exact test was needed
-    std::vector<Sphere> worst;   ///< up to ten of the least margins among those asked, the least first
+    uint64_t asked = 0; ///< spheres near enough to the surface that the exact test was needed
+    std::vector<Sphere> worst; ///< up to ten of the least margins among those asked, the least first
 
     /// Spheres by their margin over their radius, in bins of 0.1 from -1 up; what lies beyond the last is left out.
     static constexpr double bin_first = -1, bin_width = 0.1;

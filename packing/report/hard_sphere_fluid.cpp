@@ -8,9 +8,15 @@ namespace scree {
 
 double RadiusMoments::mean_volume() const { return 4.0 / 3 * std::numbers::pi * m[3]; }
 
-double RadiusMoments::polydispersity() const { return m[1] > 0 ? std::sqrt(std::max(0.0, m[2] - m[1] * m[1])) / m[1] : 0; }
+double RadiusMoments::polydispersity() const
+{
+    return m[1] > 0 ? std::sqrt(std::max(0.0, m[2] - m[1] * m[1])) / m[1] : 0;
+}
 
-double mean_void_chord(double fraction, const RadiusMoments& radii) { return 4 * (1 - fraction) * radii.m[3] / (3 * fraction * radii.m[2]); }
+double mean_void_chord(double fraction, const RadiusMoments& radii)
+{
+    return 4 * (1 - fraction) * radii.m[3] / (3 * fraction * radii.m[2]);
+}
 
 double carnahan_starling_contact(double fraction) { return (1 - fraction / 2) / std::pow(1 - fraction, 3); }
 
@@ -23,15 +29,17 @@ double bmcsl_contact(double fraction, const RadiusMoments& radii)
     const double twice = 4 * 2 * m[3] * m[2];
     // xi_k = pi/6 rho <d^k>: xi_3 is the fraction and xi_2 = f <d^2> / <d^3>.
     const double xi2 = fraction * m[2] / (2 * m[3]), void_part = 1 - fraction;
-    return 1 / void_part + 3 * xi2 / std::pow(void_part, 2) * once / whole + 2 * xi2 * xi2 / std::pow(void_part, 3) * twice / whole;
+    return 1 / void_part + 3 * xi2 / std::pow(void_part, 2) * once / whole +
+           2 * xi2 * xi2 / std::pow(void_part, 3) * twice / whole;
 }
 
 std::vector<double> percus_yevick(double fraction, int steps_per_diameter, double x_max)
 {
-    // r h(r) = 12 f int_0^1 (r - t) h(|r - t|) Q(t) dt for r > 1, with Q(t) = a/2 (t^2 - 1) + b (t - 1) and h = -1 below 1:
-    // the trapezoid rule on either side of the jump of h at contact.
+    // r h(r) = 12 f int_0^1 (r - t) h(|r - t|) Q(t) dt for r > 1, with Q(t) = a/2 (t^2 - 1) + b (t - 1) and h = -1
+    // below 1: the trapezoid rule on either side of the jump of h at contact.
     const size_t n = static_cast<size_t>(steps_per_diameter);
-    const double dt = 1.0 / double(n), a = (1 + 2 * fraction) / std::pow(1 - fraction, 2), b = -1.5 * fraction / std::pow(1 - fraction, 2);
+    const double dt = 1.0 / double(n), a = (1 + 2 * fraction) / std::pow(1 - fraction, 2),
+                 b = -1.5 * fraction / std::pow(1 - fraction, 2);
     std::vector<double> q(n + 1);
     for (size_t k = 0; k <= n; ++k) {
         const double t = double(k) * dt;

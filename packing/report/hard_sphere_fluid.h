@@ -13,18 +13,21 @@ struct RadiusMoments {
     double polydispersity() const;
 };
 
-/// Mean chord of the voids between spheres of volume fraction f that do not overlap: 4 (1 - f) <r^3> / (3 f <r^2>). Exact for any
-/// isotropic uniform random lines, whatever the arrangement (Cauchy; Underwood 1970).
+/// Mean chord of the voids between spheres of volume fraction f that do not overlap: 4 (1 - f) <r^3> / (3 f <r^2>).
+/// Exact for any isotropic uniform random lines, whatever the arrangement (Cauchy; Underwood 1970).
 double mean_void_chord(double fraction, const RadiusMoments& radii);
 
-/// g at contact of the fluid of equal hard spheres: (1 - f/2) / (1 - f)^3 (Carnahan, Starling, J. Chem. Phys. 51, 1969).
+/// g at contact of the fluid of equal hard spheres: (1 - f/2) / (1 - f)^3 (Carnahan, Starling, J. Chem. Phys. 51,
+/// 1969).
 double carnahan_starling_contact(double fraction);
 
-/// Its value for mixtures (Boublik 1970; Mansoori, Carnahan, Starling, Leland 1971), averaged over pairs of spheres with the weight
-/// (r_i + r_j)^3, which is that of g as a function of d / (r_i + r_j). Equals Carnahan-Starling for equal spheres.
+/// Its value for mixtures (Boublik 1970; Mansoori, Carnahan, Starling, Leland 1971), averaged over pairs of spheres
+/// with the weight (r_i + r_j)^3, which is that of g as a function of d / (r_i + r_j). Equals Carnahan-Starling for
+/// equal spheres.
 double bmcsl_contact(double fraction, const RadiusMoments& radii);
 
-/// g(x) of equal hard spheres by Percus and Yevick, x in diameters, for x = 1, 1 + step, ... up to x_max or just beyond.
+/// g(x) of equal hard spheres by Percus and Yevick, x in diameters, for x = 1, 1 + step, ... up to x_max or just
+/// beyond.
 ///
 /// Baxter's factorisation (Aust. J. Phys. 21, 1968, 563) solved outwards as Perram does (Mol. Phys. 30, 1975, 1505).
 /// 0 < fraction < 1; the step is a diameter over steps_per_diameter.

@@ -33,40 +33,47 @@ struct DualVertex {
 };
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<int64_t, Kernel, CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
-using CellBase = CGAL::Triangulation_cell_base_with_info_3<DualVertex, Kernel, CGAL::Regular_triangulation_cell_base_3<Kernel>>;
+using VertexBase =
+    CGAL::Triangulation_vertex_base_with_info_3<int64_t, Kernel, CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
+using CellBase =
+    CGAL::Triangulation_cell_base_with_info_3<DualVertex, Kernel, CGAL::Regular_triangulation_cell_base_3<Kernel>>;
 using Triangulation = CGAL::Regular_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
 using WeightedPoint = Triangulation::Weighted_point;
 
 V3d place_of(const WeightedPoint& p) { return {p.x(), p.y(), p.z()}; }
 
 /// Solves a_i . x = b_i by Cramer's rule.
-template <class T> std::array<T, 3> solve(const std::array<std::array<T, 3>, 3>& a, const std::array<T, 3>& b, const T& determinant)
+template <class T>
+std::array<T, 3> solve(const std::array<std::array<T, 3>, 3>& a, const std::array<T, 3>& b, const T& determinant)
 {
     std::array<T, 3> x;
     for (size_t k = 0; k < 3; ++k) {
         auto m = a;
         for (size_t i = 0; i < 3; ++i) m[i][k] = b[i];
         x[k] = (m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-                m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])) / determinant;
+                m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])) /
+               determinant;
     }
     return x;
 }
 
-template <class T> T determinant_of(const std::array<std::array<T, 3>, 3>& a)
+template <class T>
+T determinant_of(const std::array<std::array<T, 3>, 3>& a)
 {
     return a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) - a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0]) +
            a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
 }
 
 /// The point of equal power to four spheres, relative to the first: 2 (p_i - p_0) . x = |p_i - p_0|^2 - w_i + w_0.
-template <class T> std::array<T, 3> equal_power(const std::array<WeightedPoint, 4>& p, T& determinant)
+template <class T>
+std::array<T, 3> equal_power(const std::array<WeightedPoint, 4>& p, T& determinant)
 {
     std::array<std::array<T, 3>, 3> a;
     std::array<T, 3> b;
     for (size_t i = 0; i < 3; ++i) {
         a[i] = {T(p[i + 1].x()) - T(p[0].x()), T(p[i + 1].y()) - T(p[0].y()), T(p[i + 1].z()) - T(p[0].z())};
-        b[i] = (a[i][0] * a[i][0] + a[i][1] * a[i][1] + a[i][2] * a[i][2] - T(p[i + 1].weight()) + T(p[0].weight())) / T(2);
+        b[i] = (a[i][0] * a[i][0] + a[i][1] * a[i][1] + a[i][2] * a[i][2] - T(p[i + 1].weight()) + T(p[0].weight())) /
+               T(2);
     }
     determinant = determinant_of(a);
     if (determinant == T(0)) return {T(0), T(0), T(0)};
@@ -78,12 +85,14 @@ bool before(const V3d& a, const V3d& b) { return a.x != b.x ? a.x < b.x : a.y !=
 /// The same to the last bit for any order of the points.
 DualVertex dual_vertex(std::array<WeightedPoint, 4> p)
 {
-    std::ranges::sort(p, [](const WeightedPoint& a, const WeightedPoint& b) { return before(place_of(a), place_of(b)); });
+    std::ranges::sort(p,
+                      [](const WeightedPoint& a, const WeightedPoint& b) { return before(place_of(a), place_of(b)); });
     double determinant = 0;
     std::array<double, 3> x = equal_power(p, determinant);
     double edges = 1;
     for (size_t i = 1; i < 4; ++i) edges *= (place_of(p[i]) - place_of(p[0])).length();
-    // Flat tetrahedra, of which lattices have many: their dual vertex is well placed, but rounding would throw it anywhere.
+    // Flat tetrahedra, of which lattices have many: their dual vertex is well placed, but rounding would throw it
+    // anywhere.
     if (std::abs(determinant) < 1e-4 * edges) {
         CGAL::Exact_rational exact_determinant(0);
         const auto exact = equal_power(p, exact_determinant);
@@ -108,7 +117,8 @@ Neighbourhood neighbourhood_of(const PackedSpheres& spheres, const std::vector<u
     result.known.max += V3d(margin);
     const auto add = [&](uint64_t i, const V3d& centre, int64_t info) {
         const V3d p = centre - origin;
-        result.points.emplace_back(WeightedPoint(Kernel::Point_3(p.x, p.y, p.z), spheres.radius(i) * spheres.radius(i)), info);
+        result.points.emplace_back(WeightedPoint(Kernel::Point_3(p.x, p.y, p.z), spheres.radius(i) * spheres.radius(i)),
+                                   info);
     };
     for (size_t k = 0; k < block.size(); ++k) add(block[k], spheres.position(block[k]), static_cast<int64_t>(k));
     spheres.visit_box(result.known, [&](uint64_t i, const V3d& centre) {
@@ -132,7 +142,8 @@ double area_across(std::vector<V3d>& polygon, const V3d& direction)
     std::rotate(polygon.begin(), std::ranges::min_element(polygon, before), polygon.end());
     if (before(polygon.back(), polygon[1])) std::reverse(polygon.begin() + 1, polygon.end());
     double twice = 0;
-    for (size_t k = 1; k + 1 < polygon.size(); ++k) twice += (polygon[k] - polygon[0]).cross(polygon[k + 1] - polygon[0]).dot(direction);
+    for (size_t k = 1; k + 1 < polygon.size(); ++k)
+        twice += (polygon[k] - polygon[0]).cross(polygon[k + 1] - polygon[0]).dot(direction);
     return 0.5 * std::abs(twice);
 }
 
@@ -187,7 +198,8 @@ Cells cells_of(const Neighbourhood& neighbourhood, size_t count, double largest_
         const V3d p = place_of(v->point()), along = place_of(w->point()) - p;
         const double d = along.length();
         if (!whole || !(d > 0)) continue;
-        const double face = area_across(polygon, along / d), height = 0.5 * (d * d + v->point().weight() - w->point().weight()) / d;
+        const double face = area_across(polygon, along / d),
+                     height = 0.5 * (d * d + v->point().weight() - w->point().weight()) / d;
         if (v->info() != outer) cones.emplace_back(static_cast<size_t>(v->info()), face * height / 3);
         if (w->info() != outer) cones.emplace_back(static_cast<size_t>(w->info()), face * (d - height) / 3);
     }
@@ -212,7 +224,8 @@ LaguerreCells measure_laguerre_cells(const PackedSpheres& spheres, double number
     for (int attempt = 0;;) {
         const Neighbourhood neighbourhood = neighbourhood_of(spheres, block, margin);
         if (neighbourhood.points.size() > most_points && block.size() > 100) {
-            block = spheres.central_block(block.size() / 2, 2 * spacing); // one sphere much larger than the others reaches far
+            block = spheres.central_block(block.size() / 2,
+                                          2 * spacing); // one sphere much larger than the others reaches far
             continue;
         }
         cells = cells_of(neighbourhood, block.size(), spheres.largest_radius(), progress);
@@ -230,7 +243,8 @@ LaguerreCells measure_laguerre_cells(const PackedSpheres& spheres, double number
             ++result.unbounded;
             continue;
         }
-        const double r = spheres.radius(block[k]), volume = 4.0 / 3 * std::numbers::pi * r * r * r, local = volume / cells.volume[k];
+        const double r = spheres.radius(block[k]), volume = 4.0 / 3 * std::numbers::pi * r * r * r,
+                     local = volume / cells.volume[k];
         ++result.cells;
         result.cell_volume += cells.volume[k];
         result.sphere_volume += volume;

@@ -12,7 +12,7 @@ namespace scree {
 /// Spheres that touch have their contact plane as common face; between equal spheres it is the Voronoi tessellation.
 struct LaguerreCells {
     uint64_t cells = 0;
-    uint64_t hidden = 0;   ///< spheres without cell: they lie deep inside of others
+    uint64_t hidden = 0; ///< spheres without cell: they lie deep inside of others
     uint64_t unbounded = 0; ///< cells that depend on what is not known, left out
     bool whole_box = false; ///< the cells of all spheres of a periodic box: their volumes add up to its volume
     double cell_volume = 0, sphere_volume = 0; ///< sums
@@ -22,6 +22,7 @@ struct LaguerreCells {
 };
 
 /// Of a bulk of more than 100,000 spheres a block in its middle. number_density: of the bulk. Throws Cancelled.
-LaguerreCells measure_laguerre_cells(const PackedSpheres& spheres, double number_density, const Progress& progress = {});
+LaguerreCells measure_laguerre_cells(const PackedSpheres& spheres, double number_density,
+                                     const Progress& progress = {});
 
 } // namespace scree

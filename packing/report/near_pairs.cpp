@@ -67,7 +67,8 @@ struct Part {
         fabric_count += other.fabric_count;
     }
 
-    void take(const PackedSpheres& spheres, uint64_t i, const PackedSpheres::Neighbour& n, const std::vector<uint8_t>& bulk)
+    void take(const PackedSpheres& spheres, uint64_t i, const PackedSpheres::Neighbour& n,
+              const std::vector<uint8_t>& bulk)
     {
         const double r = spheres.radius(i), d = n.offset.length(), touch = r + n.radius, gap = d - touch;
         if (gap < 0) {
@@ -83,7 +84,10 @@ struct Part {
         const double relative = gap / (0.5 * touch);
         const uint64_t ends = uint64_t{bulk[i]} + bulk[n.index];
         // A gap belongs to the first tolerance that is above it.
-        const double tolerance = relative > 0 ? std::floor((std::log10(relative) - NearPairs::log_gap_first) * NearPairs::gaps_per_decade) + 1 : 0;
+        const double tolerance =
+            relative > 0
+                ? std::floor((std::log10(relative) - NearPairs::log_gap_first) * NearPairs::gaps_per_decade) + 1
+                : 0;
         if (tolerance < double(ends_by_gap.size())) ends_by_gap[static_cast<size_t>(std::max(tolerance, 0.0))] += ends;
         if (relative >= NearPairs::contact_tolerance) return;
         contacts.emplace_back(i, n.index);
@@ -96,7 +100,8 @@ struct Part {
 };
 
 /// Who touches whom, and who is left when those with fewer than four contacts are taken out one after the other.
-void count_contacts(const std::vector<std::pair<uint64_t, uint64_t>>& contacts, const std::vector<uint8_t>& bulk, NearPairs& result)
+void count_contacts(const std::vector<std::pair<uint64_t, uint64_t>>& contacts, const std::vector<uint8_t>& bulk,
+                    NearPairs& result)
 {
     const size_t n = bulk.size();
     std::vector<uint64_t> start(n + 1, 0);
@@ -159,7 +164,8 @@ FabricTensor fabric_of(const std::array<double, 6>& sums, uint64_t directions)
     for (int sweep = 0; sweep < 8; ++sweep)
         for (const auto& [p, q] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)}) {
             if (m[p][q] == 0) continue;
-            const double theta = (m[q][q] - m[p][p]) / (2 * m[p][q]), t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
+            const double theta = (m[q][q] - m[p][p]) / (2 * m[p][q]),
+                         t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
             const double c = 1 / std::sqrt(t * t + 1), s = t * c;
             for (int k = 0; k < 3; ++k) {
                 const double a = m[k][p], b = m[k][q];
@@ -182,17 +188,19 @@ NearPairs measure_near_pairs(const PackedSpheres& spheres, const Progress& progr
     const bool all = spheres.container() == PackedSpheres::Container::none;
     std::vector<uint8_t> bulk(spheres.size());
     for (uint64_t i = 0; i < spheres.size(); ++i) bulk[i] = all || spheres.bulk(i);
-    const Part sum = ordered_sum<Part>(spheres.size(), 4096, "overlaps and contacts", progress, [&](uint64_t begin, uint64_t end) {
-        Part part;
-        for (uint64_t rank = begin; rank < end; ++rank) {
-            const uint64_t i = spheres.ranked(rank);
-            const bool done = spheres.visit_pairs(rank, 1 + 0.5 * largest_gap,
-                                                  [&](const PackedSpheres::Neighbour& n) { part.take(spheres, i, n, bulk); });
-            part.complete = part.complete && done;
-        }
-        part.keep_worst();
-        return part;
-    });
+    const Part sum =
+        ordered_sum<Part>(spheres.size(), 4096, "overlaps and contacts", progress, [&](uint64_t begin, uint64_t end) {
+            Part part;
+            for (uint64_t rank = begin; rank < end; ++rank) {
+                const uint64_t i = spheres.ranked(rank);
+                const bool done =
+                    spheres.visit_pairs(rank, 1 + 0.5 * largest_gap,
+                                        [&](const PackedSpheres::Neighbour& n) { part.take(spheres, i, n, bulk); });
+                part.complete = part.complete && done;
+            }
+            part.keep_worst();
+            return part;
+        });
 
     NearPairs result;
     result.complete = sum.complete;

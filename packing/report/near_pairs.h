@@ -28,10 +28,10 @@ struct NearPairs {
         Imath::V3d place{0}; ///< centre of the first
     };
 
-    bool complete = true;       ///< false when spheres have thousands of neighbours, and not all were looked at
-    uint64_t overlapping = 0;   ///< pairs with d < r_i + r_j
-    double mean_overlap = 0;    ///< of those pairs
-    double lens_volume = 0;     ///< volume that those pairs have in common, summed
+    bool complete = true; ///< false when spheres have thousands of neighbours, and not all were looked at
+    uint64_t overlapping = 0; ///< pairs with d < r_i + r_j
+    double mean_overlap = 0; ///< of those pairs
+    double lens_volume = 0; ///< volume that those pairs have in common, summed
     std::vector<Overlap> worst; ///< up to ten, the largest first
     /// Pairs by overlap, four bins a decade from 1e-12 to 10; smaller ones are in the first.
     static constexpr double log_first = -12, bins_per_decade = 4;
@@ -40,15 +40,16 @@ struct NearPairs {
     /// Gap over the mean radius of the two below which spheres count as touching.
     static constexpr double contact_tolerance = 1e-3;
     uint64_t bulk_spheres = 0;
-    /// Mean number of contacts of a bulk sphere if pairs with a gap below 10^(-8 + k/8) mean radii touched, k = 0, 1, ..., 60.
+    /// Mean number of contacts of a bulk sphere if pairs with a gap below 10^(-8 + k/8) mean radii touched, k = 0, 1,
+    /// ..., 60.
     static constexpr double log_gap_first = -8, gaps_per_decade = 8;
     std::vector<double> contacts_below_gap = std::vector<double>(61);
-    double mean_contacts = 0;           ///< at the tolerance, bulk spheres
+    double mean_contacts = 0; ///< at the tolerance, bulk spheres
     /// Spheres of fewer than four contacts, taken out again and again; of the bulk. What lies outside the bulk is held.
     uint64_t rattlers = 0;
     double mean_contacts_without_rattlers = 0;
     std::vector<uint64_t> contact_counts; ///< bulk spheres with 0, 1, ... contacts
-    FabricTensor fabric;                ///< of the contacts with an end in the bulk
+    FabricTensor fabric; ///< of the contacts with an end in the bulk
 };
 
 /// Throws Cancelled.

@@ -14,13 +14,14 @@ namespace scree {
 void for_chunks(uint64_t count, uint64_t size, const std::string& stage, const Progress& progress,
                 const std::function<void(uint64_t chunk, uint64_t begin, uint64_t end)>& work);
 
-/// The sum of what work(begin, end) returns for the chunks of 0..count, added up in their order by State::add: the same to
-/// the last bit on any number of threads. Throws Cancelled.
+/// The sum of what work(begin, end) returns for the chunks of 0..count, added up in their order by State::add: the same
+/// to the last bit on any number of threads. Throws Cancelled.
 template <class State, class Work>
 State ordered_sum(uint64_t count, uint64_t size, const std::string& stage, const Progress& progress, const Work& work)
 {
     std::vector<State> parts((count + size - 1) / size);
-    for_chunks(count, size, stage, progress, [&](uint64_t chunk, uint64_t begin, uint64_t end) { parts[chunk] = work(begin, end); });
+    for_chunks(count, size, stage, progress,
+               [&](uint64_t chunk, uint64_t begin, uint64_t end) { parts[chunk] = work(begin, end); });
     State sum;
     for (State& part : parts) {
         sum.add(part);

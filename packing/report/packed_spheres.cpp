@@ -2,10 +2,10 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "packing/report/ordered_sum.h"
 #include "packing/solids/distance_field.h"
 #include "packing/solids/domain.h"
 #include "packing/solids/interior_sampler.h"
-#include "packing/report/ordered_sum.h"
 
 #include <fmt/format.h>
 
@@ -31,14 +31,16 @@ bool along_axes(const SimulationBox& box)
 
 } // namespace
 
-PackedSpheres::PackedSpheres(const ParticleFrame& frame, const std::string& place, const MeshContainer& mesh, const Progress& progress)
+PackedSpheres::PackedSpheres(const ParticleFrame& frame, const std::string& place, const MeshContainer& mesh,
+                             const Progress& progress)
     : mesh_(mesh)
 {
     take_spheres(frame, place);
     if (!mesh.domain && frame.box && frame.box->volume() > 0) take_box(*frame.box);
     for (size_t k = 0; k < 3; ++k) {
         if (periodic_[k] && largest_ > height_[k])
-            throw InputError(place, fmt::format("a sphere of radius {:g} in a periodic box {:g} wide", largest_, height_[k]),
+            throw InputError(place,
+                             fmt::format("a sphere of radius {:g} in a periodic box {:g} wide", largest_, height_[k]),
                              "spheres smaller than the box", "are the radii in the box's unit?");
     }
     for (V3d& p : position_) p = wrapped(p);
@@ -98,13 +100,15 @@ void PackedSpheres::take_box(const SimulationBox& box)
 
 void PackedSpheres::build_grid()
 {
-    // Cells as wide as a sphere would be empty for the most part where spheres are far apart, and searches go through all of them:
-    // there the cells are as wide as the mean distance, of the middle half along each axis, as single spheres may be anywhere.
+    // Cells as wide as a sphere would be empty for the most part where spheres are far apart, and searches go through
+    // all of them: there the cells are as wide as the mean distance, of the middle half along each axis, as single
+    // spheres may be anywhere.
     double volume = 1;
     std::vector<double> values(size());
     for (int axis = 0; axis < 3; ++axis) {
         for (uint64_t i = 0; i < size(); ++i) values[i] = position_[i][axis];
-        const auto quarter = values.begin() + static_cast<std::ptrdiff_t>(size() / 4), rest = values.begin() + static_cast<std::ptrdiff_t>(size() - 1 - size() / 4);
+        const auto quarter = values.begin() + static_cast<std::ptrdiff_t>(size() / 4),
+                   rest = values.begin() + static_cast<std::ptrdiff_t>(size() - 1 - size() / 4);
         std::nth_element(values.begin(), quarter, values.end());
         const double low = *quarter;
         std::nth_element(values.begin(), rest, values.end());
@@ -161,7 +165,9 @@ V3d PackedSpheres::fractional(const V3d& place) const
     for (size_t k = 0; k < 3; ++k) {
         const int axis = static_cast<int>(k);
         const double extent = bounds_.max[axis] - bounds_.min[axis];
-        const double u = periodic_[k] ? (place - box_lo_).dot(to_fraction_[k]) : extent > 0 ? (place[axis] - bounds_.min[axis]) / extent : 0;
+        const double u = periodic_[k] ? (place - box_lo_).dot(to_fraction_[k])
+                         : extent > 0 ? (place[axis] - bounds_.min[axis]) / extent
+                                      : 0;
         result[axis] = periodic_[k] ? u - std::floor(u) : std::clamp(u, 0.0, 1.0);
     }
     return result;
@@ -282,7 +288,8 @@ std::vector<uint64_t> PackedSpheres::central_block(uint64_t most, double margin)
 void PackedSpheres::visit_box(const Imath::Box3d& box, const std::function<void(uint64_t, const V3d&)>& visit) const
 {
     const V3d middle = 0.5 * (box.min + box.max);
-    const double reach = 0.5 * (box.max - box.min).length(), half = 0.5 * std::max({box.size().x, box.size().y, box.size().z});
+    const double reach = 0.5 * (box.max - box.min).length(),
+                 half = 0.5 * std::max({box.size().x, box.size().y, box.size().z});
     const V3d inside = wrapped(middle), back = middle - inside;
     for (size_t level = 0; level < grid_->level_count(); ++level) {
         visit_images(inside, reach, [&](const V3d& image, int) {

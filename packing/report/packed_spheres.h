@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/progress.h"
 #include "ingest/particles/particle_frame.h"
 #include "ingest/sphere_grid.h"
-#include "base/progress.h"
 #include "packing/report/hard_sphere_fluid.h"
 
 #include <Imath/ImathBox.h>
@@ -29,17 +29,18 @@ struct MeshContainer {
 
 /// The spheres of a report, what contains them, and who is near whom, periodic images included. Any thread may ask.
 ///
-/// The container is the mesh; else a box that is periodic along all its edges; else the bed, the box between the quartiles of
-/// the centres along each axis that is not periodic; else (fewer than 64 spheres) there is none.
-/// The *bulk* is the part of it where surfaces do not show: all of a periodic box or bed, and what is three largest
-/// radii below a mesh's surface: there also the spheres that touch those of the bulk are whole inside.
+/// The container is the mesh; else a box that is periodic along all its edges; else the bed, the box between the
+/// quartiles of the centres along each axis that is not periodic; else (fewer than 64 spheres) there is none. The
+/// *bulk* is the part of it where surfaces do not show: all of a periodic box or bed, and what is three largest radii
+/// below a mesh's surface: there also the spheres that touch those of the bulk are whole inside.
 class PackedSpheres {
 public:
     enum class Container { none, periodic_box, bed, mesh };
 
     /// Leaves out spheres of radius 0. With a mesh nothing is periodic.
     /// Throws InputError naming `place` when no sphere is left or one is larger than the periodic box, and Cancelled.
-    PackedSpheres(const ParticleFrame& frame, const std::string& place, const MeshContainer& mesh = {}, const Progress& progress = {});
+    PackedSpheres(const ParticleFrame& frame, const std::string& place, const MeshContainer& mesh = {},
+                  const Progress& progress = {});
 
     uint64_t size() const { return position_.size(); }
     uint64_t left_out() const { return left_out_; }
@@ -58,7 +59,10 @@ public:
     bool periodic(size_t k) const { return periodic_[k]; }
     const Imath::Box3d& bed() const { return bed_; }
     /// Whether the container goes on for ever along an axis of the box.
-    bool endless(size_t k) const { return container_ == Container::periodic_box || (container_ == Container::bed && periodic_[k] && upright_); }
+    bool endless(size_t k) const
+    {
+        return container_ == Container::periodic_box || (container_ == Container::bed && periodic_[k] && upright_);
+    }
     /// Of the container; 0 for none.
     double volume() const { return volume_; }
 
@@ -81,9 +85,10 @@ public:
         Imath::V3d offset; ///< from the place to the (image's) centre
     };
 
-    /// Calls visit(neighbour) for every sphere or image nearer to the place than stretch (add + its radius), and for some others;
-    /// stops and returns false when visit returns false.
-    template <class Visit> bool visit_near(const Imath::V3d& place, double add, double stretch, const Visit& visit) const
+    /// Calls visit(neighbour) for every sphere or image nearer to the place than stretch (add + its radius), and for
+    /// some others; stops and returns false when visit returns false.
+    template <class Visit>
+    bool visit_near(const Imath::V3d& place, double add, double stretch, const Visit& visit) const
     {
         const Imath::V3d inside = wrapped(place);
         bool going = true;
@@ -103,7 +108,8 @@ public:
 
     /// Calls visit(neighbour) for each pair (once), images included, with d < stretch (r_i + r_j) whose first sphere is
     /// ranked(rank); returns false, having left some out, when there are thousands: radii that are wrong.
-    template <class Visit> bool visit_pairs(uint64_t rank, double stretch, const Visit& visit) const
+    template <class Visit>
+    bool visit_pairs(uint64_t rank, double stretch, const Visit& visit) const
     {
         const SphereGrid::Entry& self = entry(rank);
         size_t candidates = 0;
@@ -126,8 +132,8 @@ public:
         return complete;
     }
 
-    /// The spheres of the bulk around which the packing goes on for `margin` more; where they are more than `most`, so many in a
-    /// block around their middle. Ascending.
+    /// The spheres of the bulk around which the packing goes on for `margin` more; where they are more than `most`, so
+    /// many in a block around their middle. Ascending.
     std::vector<uint64_t> central_block(uint64_t most, double margin) const;
 
     /// Every sphere or image whose centre lies in a box along the axes: calls visit(index, centre).
@@ -139,13 +145,17 @@ private:
     void find_bed();
     void build_grid();
     const SphereGrid::Entry& entry(uint64_t rank) const;
-    double radius_of(const SphereGrid::Entry& e) const { return widened_ ? double(radius_[e.index]) : double(e.radius); }
+    double radius_of(const SphereGrid::Entry& e) const
+    {
+        return widened_ ? double(radius_[e.index]) : double(e.radius);
+    }
     Imath::V3d wrapped(Imath::V3d place) const;
     size_t level_of(uint64_t rank) const;
 
-    /// Calls f(image of the place, side) for the images within reach of what lies in the box; side: 0 for the place itself, else
-    /// 1 or -1, of which the opposite image has the other.
-    template <class F> void visit_images(const Imath::V3d& inside, double reach, const F& f) const
+    /// Calls f(image of the place, side) for the images within reach of what lies in the box; side: 0 for the place
+    /// itself, else 1 or -1, of which the opposite image has the other.
+    template <class F>
+    void visit_images(const Imath::V3d& inside, double reach, const F& f) const
     {
         int lo[3] = {0, 0, 0}, hi[3] = {0, 0, 0};
         for (size_t k = 0; k < 3; ++k) {
@@ -158,7 +168,9 @@ private:
             for (int b = lo[1]; b <= hi[1]; ++b)
                 for (int a = lo[0]; a <= hi[0]; ++a) {
                     const int first = c != 0 ? c : b != 0 ? b : a;
-                    f(inside + double(a) * edges_[0] + double(b) * edges_[1] + double(c) * edges_[2], first > 0 ? 1 : first < 0 ? -1 : 0);
+                    f(inside + double(a) * edges_[0] + double(b) * edges_[1] + double(c) * edges_[2], first > 0   ? 1
+                                                                                                      : first < 0 ? -1
+                                                                                                                  : 0);
                 }
     }
 

@@ -55,7 +55,7 @@ struct PackingReport {
     VoidChords chords;
     LaguerreCells cells;
     BondOrder bonds;
-    double theory_contact = 0;       ///< Carnahan-Starling, or BMCSL for spheres of several sizes, at the bulk's fraction
+    double theory_contact = 0; ///< Carnahan-Starling, or BMCSL for spheres of several sizes, at the bulk's fraction
     std::vector<Claim> claims;
 };
 

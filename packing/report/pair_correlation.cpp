@@ -25,7 +25,8 @@ size_t block_of(const PackedSpheres& spheres, uint64_t i)
 {
     const V3d u = spheres.fractional(spheres.position(i));
     size_t block = 0;
-    for (int axis = 0; axis < 3; ++axis) block = block * blocks_per_axis + std::min(static_cast<size_t>(u[axis] * blocks_per_axis), blocks_per_axis - 1);
+    for (int axis = 0; axis < 3; ++axis)
+        block = block * blocks_per_axis + std::min(static_cast<size_t>(u[axis] * blocks_per_axis), blocks_per_axis - 1);
     return block;
 }
 
@@ -54,28 +55,35 @@ struct BlockedShells {
     }
 };
 
-double shell_volume(double x, double width) { return 4.0 / 3 * std::numbers::pi * (std::pow(x + width, 3) - x * x * x); }
+double shell_volume(double x, double width)
+{
+    return 4.0 / 3 * std::numbers::pi * (std::pow(x + width, 3) - x * x * x);
+}
 
 /// Counts the spheres around sphere i. once: pairs are counted twice for their lower index, and not for the other.
-void count_around(const PackedSpheres& spheres, uint64_t i, double first, double width, size_t bins, bool once, Shells& shells)
+void count_around(const PackedSpheres& spheres, uint64_t i, double first, double width, size_t bins, bool once,
+                  Shells& shells)
 {
     const double r = spheres.radius(i), x_max = first + width * double(bins);
     // With far more neighbours than there is room for, radii or places are nonsense, and work must end.
-    const double expected = 4.0 / 3 * std::numbers::pi * std::pow(x_max, 3) * mean_cube(r, spheres.moments()) * double(spheres.size()) / std::max(spheres.volume(), 1e-300);
+    const double expected = 4.0 / 3 * std::numbers::pi * std::pow(x_max, 3) * mean_cube(r, spheres.moments()) *
+                            double(spheres.size()) / std::max(spheres.volume(), 1e-300);
     const double most = 5000 + 100 * expected;
     double candidates = 0;
     shells.pairs.resize(bins);
     spheres.visit_near(spheres.position(i), r, x_max, [&](const PackedSpheres::Neighbour& n) {
         const double x = n.offset.length() / (r + n.radius), bin = (x - first) / width;
         const bool itself = x == 0 && n.index == i;
-        if (!itself && bin >= 0 && bin < double(bins)) shells.pairs[static_cast<size_t>(bin)] += !once || n.index == i ? 1 : n.index > i ? 2 : 0;
+        if (!itself && bin >= 0 && bin < double(bins))
+            shells.pairs[static_cast<size_t>(bin)] += !once || n.index == i ? 1 : n.index > i ? 2 : 0;
         return ++candidates < most;
     });
     shells.cubes += mean_cube(r, spheres.moments());
     ++shells.centres;
 }
 
-/// The largest x to measure to: 5, or less where the packing does not reach as far around at least a tenth of the bulk's spheres.
+/// The largest x to measure to: 5, or less where the packing does not reach as far around at least a tenth of the
+/// bulk's spheres.
 double choose_x_max(const PackedSpheres& spheres)
 {
     if (spheres.container() == PackedSpheres::Container::periodic_box) return 5;
@@ -99,15 +107,17 @@ double fitted_contact(const Shells& shells, double number_density, double width)
     for (size_t k = 0; k < shells.pairs.size(); ++k) {
         const double count = double(shells.pairs[k]), x = 1 + width * double(k);
         if (count < 1) return 0;
-        const double y = std::log(count / (number_density * shells.cubes * shell_volume(x, width))), dx = width * (double(k) + 0.5);
+        const double y = std::log(count / (number_density * shells.cubes * shell_volume(x, width))),
+                     dx = width * (double(k) + 0.5);
         double power = count;
         for (int p = 0; p < 5; ++p, power *= dx) {
             s[p] += power;
             if (p < 3) t[p] += power * y;
         }
     }
-    const auto determinant = [](const double (&a)[3], const double (&b)[3], const double (&c)[3]) {
-        return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    const auto determinant = [](const double(&a)[3], const double(&b)[3], const double(&c)[3]) {
+        return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
+               a[2] * (b[0] * c[1] - b[1] * c[0]);
     };
     const double whole = determinant({s[0], s[1], s[2]}, {s[1], s[2], s[3]}, {s[2], s[3], s[4]});
     const double first = determinant({t[0], s[1], s[2]}, {t[1], s[2], s[3]}, {t[2], s[3], s[4]});
@@ -134,9 +144,10 @@ struct Replicates {
 
 /// value(block) is that without the block, value(block_count) that of the whole.
 ///
-/// A block with more spheres has a higher value, but as the number of spheres is given in all, that is no error of the whole: the
-/// part of the scatter that follows the blocks' counts is taken out by regression.
-template <class Value> Replicates jackknife(const std::array<uint64_t, block_count>& counts, const Value& value)
+/// A block with more spheres has a higher value, but as the number of spheres is given in all, that is no error of the
+/// whole: the part of the scatter that follows the blocks' counts is taken out by regression.
+template <class Value>
+Replicates jackknife(const std::array<uint64_t, block_count>& counts, const Value& value)
 {
     Replicates result;
     result.value = value(block_count);
@@ -164,7 +175,8 @@ template <class Value> Replicates jackknife(const std::array<uint64_t, block_cou
 /// w a + (1 - w) b of least variance.
 Measured combined(const Replicates& a, const Replicates& b)
 {
-    const double aa = Replicates::covariance(a, a), bb = Replicates::covariance(b, b), ab = Replicates::covariance(a, b);
+    const double aa = Replicates::covariance(a, a), bb = Replicates::covariance(b, b),
+                 ab = Replicates::covariance(a, b);
     if (!(a.value > 0) || !std::isfinite(aa)) return b.measured();
     if (!(b.value > 0) || !std::isfinite(bb)) return a.measured();
     const double spread = aa + bb - 2 * ab, w = spread > 0 ? std::clamp((bb - ab) / spread, 0.0, 1.0) : 0.5;
@@ -202,7 +214,8 @@ void collide(const V3d& offset, double touch, const V3d& direction, double from,
 }
 
 /// Marches on by steps from `from`, where the nearest collision is not nearer.
-Collision march(const PackedSpheres& spheres, const V3d& start, double radius, const V3d& direction, double from, double step)
+Collision march(const PackedSpheres& spheres, const V3d& start, double radius, const V3d& direction, double from,
+                double step)
 {
     Collision nearest;
     for (int k = 0; k < 256 && nearest.way == infinity; ++k, from += step) {
@@ -218,13 +231,15 @@ Collision march(const PackedSpheres& spheres, const V3d& start, double radius, c
 
 V3d direction_of(uint64_t index)
 {
-    const double z = 2 * unit_double(hash_index(index, path_seed, 0)) - 1, phi = 2 * std::numbers::pi * unit_double(hash_index(index, path_seed, 1));
+    const double z = 2 * unit_double(hash_index(index, path_seed, 0)) - 1,
+                 phi = 2 * std::numbers::pi * unit_double(hash_index(index, path_seed, 1));
     const double s = std::sqrt(std::max(0.0, 1 - z * z));
     return {s * std::cos(phi), s * std::sin(phi), z};
 }
 
 /// way: up to here collisions are looked for among the spheres near i; most paths are shorter.
-void free_paths_of(const PackedSpheres& spheres, uint64_t i, uint64_t directions, double way, std::vector<std::pair<V3d, double>>& near, PathSums& sums)
+void free_paths_of(const PackedSpheres& spheres, uint64_t i, uint64_t directions, double way,
+                   std::vector<std::pair<V3d, double>>& near, PathSums& sums)
 {
     const double r = spheres.radius(i), known = way + r;
     near.clear();
@@ -267,44 +282,54 @@ PairCorrelation measure_pair_correlation(const PackedSpheres& spheres, double nu
     PairCorrelation result;
     result.x_max = choose_x_max(spheres);
     if (result.x_max == 0 || !(number_density > 0)) return result;
-    const double around = number_density * 4 / 3 * std::numbers::pi * mean_cube(spheres.moments().m[1], spheres.moments());
+    const double around =
+        number_density * 4 / 3 * std::numbers::pi * mean_cube(spheres.moments().m[1], spheres.moments());
     const double margin = 2 * result.x_max * spheres.largest_radius();
-    // A sphere is asked when its hash is below a share of all: the same choice everywhere, and blind to order in the file.
+    // A sphere is asked when its hash is below a share of all: the same choice everywhere, and blind to order in the
+    // file.
     const auto chosen = [&](uint64_t i, double share) { return unit_double(hash_index(i, choice_seed)) < share; };
-    const auto share_of = [&](double budget, double cost) { return budget / (double(spheres.size()) * std::max(cost, 1.0)); };
+    const auto share_of = [&](double budget, double cost) {
+        return budget / (double(spheres.size()) * std::max(cost, 1.0));
+    };
 
     const double share = share_of(pair_budget, around * std::pow(result.x_max, 3));
     const size_t bins = static_cast<size_t>(std::lround(result.x_max / result.bin_width));
-    const Shells far = ordered_sum<Shells>(spheres.size(), 2048, "pair correlation", progress, [&](uint64_t begin, uint64_t end) {
-        Shells part;
-        for (uint64_t rank = begin; rank < end; ++rank) {
-            const uint64_t i = spheres.ranked(rank);
-            if (chosen(i, share) && spheres.in_bulk(spheres.position(i), margin)) count_around(spheres, i, 0, result.bin_width, bins, false, part);
-        }
-        return part;
-    });
+    const Shells far =
+        ordered_sum<Shells>(spheres.size(), 2048, "pair correlation", progress, [&](uint64_t begin, uint64_t end) {
+            Shells part;
+            for (uint64_t rank = begin; rank < end; ++rank) {
+                const uint64_t i = spheres.ranked(rank);
+                if (chosen(i, share) && spheres.in_bulk(spheres.position(i), margin))
+                    count_around(spheres, i, 0, result.bin_width, bins, false, part);
+            }
+            return part;
+        });
     result.centres = far.centres;
     if (far.centres == 0) {
         result.x_max = 0;
         return result;
     }
     for (size_t k = 0; k < bins; ++k) {
-        const double expected = number_density * far.cubes * shell_volume(double(k) * result.bin_width, result.bin_width);
+        const double expected =
+            number_density * far.cubes * shell_volume(double(k) * result.bin_width, result.bin_width);
         result.g.push_back(double(far.pairs[k]) / expected);
     }
 
-    const double width = (PairCorrelation::fit_end - 1) / double(near_bins), near_share = share_of(near_budget, 8 * around);
+    const double width = (PairCorrelation::fit_end - 1) / double(near_bins),
+                 near_share = share_of(near_budget, 8 * around);
     const double near_margin = 2 * PairCorrelation::fit_end * spheres.largest_radius();
     // A pair that two blocks share must not be in both, or the jackknife would miss part of its scatter.
     const bool once = near_share >= 1 && spheres.container() == PackedSpheres::Container::periodic_box;
-    const BlockedShells near = ordered_sum<BlockedShells>(spheres.size(), 8192, "contact value", progress, [&](uint64_t begin, uint64_t end) {
-        BlockedShells part;
-        for (uint64_t rank = begin; rank < end; ++rank) {
-            const uint64_t i = spheres.ranked(rank);
-            if (chosen(i, near_share) && spheres.in_bulk(spheres.position(i), near_margin)) count_around(spheres, i, 1, width, near_bins, once, part.blocks[block_of(spheres, i)]);
-        }
-        return part;
-    });
+    const BlockedShells near =
+        ordered_sum<BlockedShells>(spheres.size(), 8192, "contact value", progress, [&](uint64_t begin, uint64_t end) {
+            BlockedShells part;
+            for (uint64_t rank = begin; rank < end; ++rank) {
+                const uint64_t i = spheres.ranked(rank);
+                if (chosen(i, near_share) && spheres.in_bulk(spheres.position(i), near_margin))
+                    count_around(spheres, i, 1, width, near_bins, once, part.blocks[block_of(spheres, i)]);
+            }
+            return part;
+        });
     std::array<uint64_t, block_count> counts{};
     for (size_t b = 0; b < block_count; ++b) counts[b] = near.blocks[b].centres;
     const Replicates fitted = jackknife(counts, [&](size_t without) {
@@ -320,24 +345,28 @@ PairCorrelation measure_pair_correlation(const PackedSpheres& spheres, double nu
 
     // The mean way of one side of a point-like sphere among others, and how far one looks before marching on.
     const RadiusMoments& m = spheres.moments();
-    const double mean_way = 1 / (number_density * std::numbers::pi * (2 * m.m[2] + 2 * m.m[1] * m.m[1])), spacing = 1 / std::cbrt(number_density);
+    const double mean_way = 1 / (number_density * std::numbers::pi * (2 * m.m[2] + 2 * m.m[1] * m.m[1])),
+                 spacing = 1 / std::cbrt(number_density);
     const double way = std::min(2 * mean_way, 2 * spacing);
     if (mean_way > 10 * spacing) { // too dilute for paths, and for contacts to matter
         result.best_contact = result.contact;
         return result;
     }
     const double path_cost = std::max(1.0, 4 * mean_way / spacing);
-    const uint64_t directions = static_cast<uint64_t>(std::clamp(path_budget / path_cost / double(spheres.size()), 4.0, 64.0));
+    const uint64_t directions =
+        static_cast<uint64_t>(std::clamp(path_budget / path_cost / double(spheres.size()), 4.0, 64.0));
     const double path_share = share_of(path_budget, path_cost * double(directions));
-    const PathSums paths = ordered_sum<PathSums>(spheres.size(), 2048, "free paths", progress, [&](uint64_t begin, uint64_t end) {
-        PathSums part;
-        std::vector<std::pair<V3d, double>> buffer;
-        for (uint64_t rank = begin; rank < end; ++rank) {
-            const uint64_t i = spheres.ranked(rank);
-            if (chosen(i, path_share) && spheres.in_bulk(spheres.position(i), near_margin)) free_paths_of(spheres, i, directions, way, buffer, part);
-        }
-        return part;
-    });
+    const PathSums paths =
+        ordered_sum<PathSums>(spheres.size(), 2048, "free paths", progress, [&](uint64_t begin, uint64_t end) {
+            PathSums part;
+            std::vector<std::pair<V3d, double>> buffer;
+            for (uint64_t rank = begin; rank < end; ++rank) {
+                const uint64_t i = spheres.ranked(rank);
+                if (chosen(i, path_share) && spheres.in_bulk(spheres.position(i), near_margin))
+                    free_paths_of(spheres, i, directions, way, buffer, part);
+            }
+            return part;
+        });
     result.free_paths = paths.paths;
     const Replicates by_paths = jackknife(paths.spheres, [&](size_t without) {
         double ends = 0, expected = 0;

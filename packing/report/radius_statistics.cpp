@@ -45,7 +45,8 @@ RadiusStatistics measure_radii(const PackedSpheres& spheres)
     result.bin_width = extent > 0 ? extent / double(bins) : 0.02 * result.greatest;
     result.bin_first = extent > 0 ? result.least : result.least - 0.5 * double(bins) * result.bin_width;
     result.counts.resize(bins);
-    for (const double r : sorted) ++result.counts[std::min(static_cast<size_t>((r - result.bin_first) / result.bin_width), bins - 1)];
+    for (const double r : sorted)
+        ++result.counts[std::min(static_cast<size_t>((r - result.bin_first) / result.bin_width), bins - 1)];
     return result;
 }
 

@@ -66,7 +66,15 @@ PlotSeries measured_g(const PairCorrelation& g, double x_max, Style style)
 
 Plot plot_radii(const RadiusStatistics& radii)
 {
-    Plot plot{"Radii", "radius", "share of the spheres", false, false, {shares("", radii.bin_first, radii.bin_width, radii.counts)}, {{radii.mean, "mean", false}}, {}, {}};
+    Plot plot{"Radii",
+              "radius",
+              "share of the spheres",
+              false,
+              false,
+              {shares("", radii.bin_first, radii.bin_width, radii.counts)},
+              {{radii.mean, "mean", false}},
+              {},
+              {}};
     if (radii.distinct == 1) plot.x_range = {0.5 * radii.mean, 1.5 * radii.mean};
     return plot;
 }
@@ -74,7 +82,15 @@ Plot plot_radii(const RadiusStatistics& radii)
 Plot plot_profiles(const PackingReport& report)
 {
     const bool mesh = report.containment.has_value();
-    Plot plot{"Solid fraction in slices", mesh ? "depth below the surface, in mean radii" : "place along the axis, as a part of it", "solid fraction", false, false, {}, {}, {}, {}};
+    Plot plot{"Solid fraction in slices",
+              mesh ? "depth below the surface, in mean radii" : "place along the axis, as a part of it",
+              "solid fraction",
+              false,
+              false,
+              {},
+              {},
+              {},
+              {}};
     for (const FractionProfile& p : report.profiles) {
         PlotSeries s{p.name, mesh ? Style::dots : Style::line, {}, {}, {}};
         const double unit = mesh ? report.radii.mean : p.width * double(p.points.size());
@@ -97,12 +113,21 @@ Plot plot_profiles(const PackingReport& report)
 
 Plot plot_overlaps(const NearPairs& near)
 {
-    Plot plot{"Overlaps", "overlap, in smaller radii", "pairs", true, true, {}, {{1e-6, "limit of tiles and fills", false}}, {}, {}};
+    Plot plot{"Overlaps",
+              "overlap, in smaller radii",
+              "pairs",
+              true,
+              true,
+              {},
+              {{1e-6, "limit of tiles and fills", false}},
+              {},
+              {}};
     PlotSeries s{"pairs that overlap", Style::bars, {}, {}, {}};
     size_t last = near.overlap_counts.size();
     while (last > 0 && near.overlap_counts[last - 1] == 0) --last;
     uint64_t most = 1;
-    for (size_t k = 0; k <= near.overlap_counts.size(); ++k) s.x.push_back(std::pow(10, NearPairs::log_first + double(k) / NearPairs::bins_per_decade));
+    for (size_t k = 0; k <= near.overlap_counts.size(); ++k)
+        s.x.push_back(std::pow(10, NearPairs::log_first + double(k) / NearPairs::bins_per_decade));
     for (const uint64_t n : near.overlap_counts) {
         s.y.push_back(double(n));
         most = std::max(most, n);
@@ -115,7 +140,15 @@ Plot plot_overlaps(const NearPairs& near)
 
 Plot plot_margins(const Containment& c)
 {
-    Plot plot{"Margins to the mesh", "(distance to the surface − radius) / radius", "spheres", false, false, {}, {{0, "touching", false}}, {}, {}};
+    Plot plot{"Margins to the mesh",
+              "(distance to the surface − radius) / radius",
+              "spheres",
+              false,
+              false,
+              {},
+              {{0, "touching", false}},
+              {},
+              {}};
     PlotSeries s{"", Style::bars, edges_of(Containment::bin_first, Containment::bin_width, c.margins.size()), {}, {}};
     for (const uint64_t n : c.margins) s.y.push_back(double(n));
     plot.series.push_back(s);
@@ -125,8 +158,17 @@ Plot plot_margins(const Containment& c)
 Plot plot_pair_correlation(const PackingReport& report)
 {
     const PairCorrelation& g = report.correlation;
-    Plot plot{"Pair correlation", "x = d / (r₁ + r₂)", "g(x)", false, false, {measured_g(g, g.x_max, Style::line)}, {}, {}, {}};
-    if (has_theory(report) && report.fraction.bulk_moments.polydispersity() < nearly_one_size) plot.series.push_back(percus_yevick_curve(report.fraction.bulk, g.x_max));
+    Plot plot{"Pair correlation",
+              "x = d / (r₁ + r₂)",
+              "g(x)",
+              false,
+              false,
+              {measured_g(g, g.x_max, Style::line)},
+              {},
+              {},
+              {}};
+    if (has_theory(report) && report.fraction.bulk_moments.polydispersity() < nearly_one_size)
+        plot.series.push_back(percus_yevick_curve(report.fraction.bulk, g.x_max));
     plot.x_range = {0, g.x_max};
     // The peak at contact of a jammed packing is a line: it would flatten all the rest.
     const double most = *std::max_element(g.g.begin(), g.g.end());
@@ -137,21 +179,40 @@ Plot plot_pair_correlation(const PackingReport& report)
 Plot plot_contact_value(const PackingReport& report)
 {
     const PairCorrelation& g = report.correlation;
-    Plot plot{"Close to contact", "x = d / (r₁ + r₂)", "g(x)", false, false, {measured_g(g, 1.5, Style::dots)}, {}, std::pair(0.98, 1.5), {}};
+    Plot plot{"Close to contact",
+              "x = d / (r₁ + r₂)",
+              "g(x)",
+              false,
+              false,
+              {measured_g(g, 1.5, Style::dots)},
+              {},
+              std::pair(0.98, 1.5),
+              {}};
     if (has_theory(report)) {
-        if (report.fraction.bulk_moments.polydispersity() < nearly_one_size) plot.series.push_back(percus_yevick_curve(report.fraction.bulk, 1.5));
+        if (report.fraction.bulk_moments.polydispersity() < nearly_one_size)
+            plot.series.push_back(percus_yevick_curve(report.fraction.bulk, 1.5));
         plot.series.push_back({"Carnahan-Starling", Style::dots, {1}, {report.theory_contact}, {}});
         plot.series.push_back({"extrapolated", Style::dots, {0.995}, {g.contact.value}, {g.contact.standard_error}});
-        plot.series.push_back({"by free paths", Style::dots, {0.99}, {g.free_path_contact.value}, {g.free_path_contact.standard_error}});
+        plot.series.push_back(
+            {"by free paths", Style::dots, {0.99}, {g.free_path_contact.value}, {g.free_path_contact.standard_error}});
     }
     return plot;
 }
 
 Plot plot_contacts(const NearPairs& near)
 {
-    Plot plot{"Contacts against tolerance", "gap that counts as contact, in mean radii", "contacts a sphere", true, false, {}, {}, {}, {}};
+    Plot plot{"Contacts against tolerance",
+              "gap that counts as contact, in mean radii",
+              "contacts a sphere",
+              true,
+              false,
+              {},
+              {},
+              {},
+              {}};
     PlotSeries s{"contacts", Style::line, {}, near.contacts_below_gap, {}};
-    for (size_t k = 0; k < s.y.size(); ++k) s.x.push_back(std::pow(10, NearPairs::log_gap_first + double(k) / NearPairs::gaps_per_decade));
+    for (size_t k = 0; k < s.y.size(); ++k)
+        s.x.push_back(std::pow(10, NearPairs::log_gap_first + double(k) / NearPairs::gaps_per_decade));
     plot.series.push_back(s);
     plot.marks = {{NearPairs::contact_tolerance, "tolerance of this report", false}, {6, "isostatic", true}};
     plot.y_range = {0, std::max(8.0, 1.05 * s.y.back())};
@@ -160,15 +221,25 @@ Plot plot_contacts(const NearPairs& near)
 
 Plot plot_contact_numbers(const NearPairs& near)
 {
-    Plot plot{"Contacts of a sphere", "contacts", "share of the spheres", false, false, {shares("", -0.5, 1, near.contact_counts)}, {{near.mean_contacts, "mean", false}}, {}, {}};
+    Plot plot{"Contacts of a sphere",
+              "contacts",
+              "share of the spheres",
+              false,
+              false,
+              {shares("", -0.5, 1, near.contact_counts)},
+              {{near.mean_contacts, "mean", false}},
+              {},
+              {}};
     plot.x_range = {-0.5, std::max(13.5, double(near.contact_counts.size()) - 0.5)};
     return plot;
 }
 
 Plot plot_void_chords(const VoidChords& chords)
 {
-    Plot plot{"Void chords", "chord, in expected means", "probability density", false, true, {}, {}, std::pair(0.0, 8.0), std::pair(1e-4, 2.0)};
-    PlotSeries measured{"measured", Style::dots, {}, {}, {}}, exponential{"exponential", Style::dashes, {0, 9}, {1, std::exp(-9)}, {}};
+    Plot plot{"Void chords",       "chord, in expected means", "probability density", false, true, {}, {},
+              std::pair(0.0, 8.0), std::pair(1e-4, 2.0)};
+    PlotSeries measured{"measured", Style::dots, {}, {}, {}},
+        exponential{"exponential", Style::dashes, {0, 9}, {1, std::exp(-9)}, {}};
     double most = 1;
     for (size_t k = 0; k < chords.density.size(); ++k) {
         measured.x.push_back((double(k) + 0.5) * VoidChords::bin_width);
@@ -183,15 +254,29 @@ Plot plot_void_chords(const VoidChords& chords)
 
 Plot plot_cells(const LaguerreCells& cells)
 {
-    return {"Local fraction", "sphere's part of its Laguerre cell", "share of the spheres", false, false, {shares("", 0, LaguerreCells::bin_width, cells.counts)},
-            {{cells.mean, "mean", false}}, {}, {}};
+    return {"Local fraction",
+            "sphere's part of its Laguerre cell",
+            "share of the spheres",
+            false,
+            false,
+            {shares("", 0, LaguerreCells::bin_width, cells.counts)},
+            {{cells.mean, "mean", false}},
+            {},
+            {}};
 }
 
 Plot plot_bond_order(const BondOrder& bonds)
 {
-    Plot plot{"Local bond order", "q4, q6 of a sphere", "share of the spheres", false, false,
-              {shares("q6", 0, BondOrder::bin_width, bonds.local_q6), shares("q4", 0, BondOrder::bin_width, bonds.local_q4)},
-              {{0.57452, "q6 of fcc", false}, {0.48476, "hcp", false}, {0.51069, "bcc", false}}, {}, {}};
+    Plot plot{
+        "Local bond order",
+        "q4, q6 of a sphere",
+        "share of the spheres",
+        false,
+        false,
+        {shares("q6", 0, BondOrder::bin_width, bonds.local_q6), shares("q4", 0, BondOrder::bin_width, bonds.local_q4)},
+        {{0.57452, "q6 of fcc", false}, {0.48476, "hcp", false}, {0.51069, "bcc", false}},
+        {},
+        {}};
     plot.x_range = {0, 0.8};
     return plot;
 }

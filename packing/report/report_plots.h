@@ -1,7 +1,7 @@
 #pragma once
 
-#include "packing/report/packing_report.h"
 #include "base/drawing/svg_plot.h"
+#include "packing/report/packing_report.h"
 
 namespace scree {
 

@@ -59,17 +59,18 @@ FractionProfile depth_profile(const PackedSpheres& spheres, const Progress& prog
     const size_t bins = static_cast<size_t>(depth_in_radii * bins_per_radius);
     const double width = spheres.moments().m[1] / bins_per_radius;
     // Exact distances are dear, and a percent for a bin is enough for the eye.
-    ProfileCounts counts = ordered_sum<ProfileCounts>(point_count / 8, chunk_size / 8, "fraction against depth", progress, [&](uint64_t begin, uint64_t end) {
-        ProfileCounts part{std::vector<uint64_t>(bins), std::vector<uint64_t>(bins)};
-        for (uint64_t i = begin; i < end; ++i) {
-            const V3d place = spheres.sample(i, profile_seed);
-            const double depth = spheres.depth(place) / width;
-            if (!(depth >= 0 && depth < double(bins))) continue;
-            ++part.points[static_cast<size_t>(depth)];
-            part.hits[static_cast<size_t>(depth)] += spheres.covered(place);
-        }
-        return part;
-    });
+    ProfileCounts counts = ordered_sum<ProfileCounts>(
+        point_count / 8, chunk_size / 8, "fraction against depth", progress, [&](uint64_t begin, uint64_t end) {
+            ProfileCounts part{std::vector<uint64_t>(bins), std::vector<uint64_t>(bins)};
+            for (uint64_t i = begin; i < end; ++i) {
+                const V3d place = spheres.sample(i, profile_seed);
+                const double depth = spheres.depth(place) / width;
+                if (!(depth >= 0 && depth < double(bins))) continue;
+                ++part.points[static_cast<size_t>(depth)];
+                part.hits[static_cast<size_t>(depth)] += spheres.covered(place);
+            }
+            return part;
+        });
     while (!counts.points.empty() && counts.points.back() == 0) {
         counts.points.pop_back();
         counts.hits.pop_back();
@@ -85,23 +86,24 @@ FractionProfile axis_profile(const PackedSpheres& spheres, size_t k, const Progr
     const Imath::Box3d& bounds = spheres.endless(k) ? spheres.bed() : spheres.bounds();
     const double extent = box ? spheres.edges()[k].length() : bounds.max[axis] - bounds.min[axis];
     const size_t bins = static_cast<size_t>(std::clamp(extent * bins_per_radius / spheres.moments().m[1], 4.0, 128.0));
-    ProfileCounts counts = ordered_sum<ProfileCounts>(point_count / 4, chunk_size, "fraction along the axes", progress, [&](uint64_t begin, uint64_t end) {
-        ProfileCounts part{std::vector<uint64_t>(bins), std::vector<uint64_t>(bins)};
-        for (uint64_t i = begin; i < end; ++i) {
-            V3d place = spheres.sample(i, profile_seed + k);
-            double u = 0;
-            if (box) {
-                u = spheres.fractional(place)[axis];
-            } else {
-                u = unit_double(hash_index(i, profile_seed + k, 3));
-                place[axis] = bounds.min[axis] + u * extent;
+    ProfileCounts counts = ordered_sum<ProfileCounts>(
+        point_count / 4, chunk_size, "fraction along the axes", progress, [&](uint64_t begin, uint64_t end) {
+            ProfileCounts part{std::vector<uint64_t>(bins), std::vector<uint64_t>(bins)};
+            for (uint64_t i = begin; i < end; ++i) {
+                V3d place = spheres.sample(i, profile_seed + k);
+                double u = 0;
+                if (box) {
+                    u = spheres.fractional(place)[axis];
+                } else {
+                    u = unit_double(hash_index(i, profile_seed + k, 3));
+                    place[axis] = bounds.min[axis] + u * extent;
+                }
+                const size_t bin = std::min(static_cast<size_t>(u * double(bins)), bins - 1);
+                ++part.points[bin];
+                part.hits[bin] += spheres.covered(place);
             }
-            const size_t bin = std::min(static_cast<size_t>(u * double(bins)), bins - 1);
-            ++part.points[bin];
-            part.hits[bin] += spheres.covered(place);
-        }
-        return part;
-    });
+            return part;
+        });
     const std::string name(1, box ? "abc"[k] : "xyz"[k]);
     return {name, box ? 0 : bounds.min[axis], extent / double(bins), std::move(counts.points), std::move(counts.hits)};
 }
@@ -147,37 +149,41 @@ SolidFraction measure_fraction(const PackedSpheres& spheres, const Progress& pro
         }
     }
     const double unit = spheres.largest_radius();
-    const BulkSpheres bulk = ordered_sum<BulkSpheres>(spheres.size(), chunk_size, "sum of volumes", progress, [&](uint64_t begin, uint64_t end) {
-        BulkSpheres part;
-        for (uint64_t i = begin; i < end; ++i) {
-            const double r = spheres.radius(i);
-            part.volume += container == Container::bed ? ball_in_box(spheres.position(i), r, bed) : 4.0 / 3 * std::numbers::pi * r * r * r;
-            if (!spheres.bulk(i)) continue;
-            ++part.count;
-            double power = 1;
-            for (int k = 1; k <= 6; ++k) part.sum[k] += power *= r / unit;
-        }
-        return part;
-    });
+    const BulkSpheres bulk = ordered_sum<BulkSpheres>(
+        spheres.size(), chunk_size, "sum of volumes", progress, [&](uint64_t begin, uint64_t end) {
+            BulkSpheres part;
+            for (uint64_t i = begin; i < end; ++i) {
+                const double r = spheres.radius(i);
+                part.volume += container == Container::bed ? ball_in_box(spheres.position(i), r, bed)
+                                                           : 4.0 / 3 * std::numbers::pi * r * r * r;
+                if (!spheres.bulk(i)) continue;
+                ++part.count;
+                double power = 1;
+                for (int k = 1; k <= 6; ++k) part.sum[k] += power *= r / unit;
+            }
+            return part;
+        });
     result.sphere_volume = bulk.volume;
     result.all_spheres = double(spheres.size()) * spheres.moments().mean_volume();
     result.bulk_spheres = bulk.count;
     if (container == Container::none) return result;
-    for (int k = 1; k <= 6 && bulk.count > 0; ++k) result.bulk_moments.m[k] = bulk.sum[k] / double(bulk.count) * std::pow(unit, k);
+    for (int k = 1; k <= 6 && bulk.count > 0; ++k)
+        result.bulk_moments.m[k] = bulk.sum[k] / double(bulk.count) * std::pow(unit, k);
     result.by_volume = result.sphere_volume / result.container_volume;
 
     result.points = point_count;
-    const PointCounts counts = ordered_sum<PointCounts>(point_count, chunk_size, "hits of random points", progress, [&](uint64_t begin, uint64_t end) {
-        PointCounts part;
-        for (uint64_t i = begin; i < end; ++i) {
-            const V3d place = spheres.sample(i, fraction_seed);
-            const bool hit = spheres.covered(place), inner = spheres.in_bulk(place);
-            part.hits += hit;
-            part.bulk_points += inner;
-            part.bulk_hits += hit && inner;
-        }
-        return part;
-    });
+    const PointCounts counts = ordered_sum<PointCounts>(
+        point_count, chunk_size, "hits of random points", progress, [&](uint64_t begin, uint64_t end) {
+            PointCounts part;
+            for (uint64_t i = begin; i < end; ++i) {
+                const V3d place = spheres.sample(i, fraction_seed);
+                const bool hit = spheres.covered(place), inner = spheres.in_bulk(place);
+                part.hits += hit;
+                part.bulk_points += inner;
+                part.bulk_hits += hit && inner;
+            }
+            return part;
+        });
     result.hits = counts.hits;
     result.by_points = double(counts.hits) / double(point_count);
     result.by_points_error = binomial_error(result.by_points, point_count);

@@ -9,12 +9,12 @@ namespace scree {
 
 /// Which part of a container its spheres fill, by two ways that share nothing but the spheres.
 struct SolidFraction {
-    double sphere_volume = 0;    ///< summed over the spheres in the container; of a bed, over their parts in it
-    double all_spheres = 0;      ///< the volumes of all spheres, wherever they are
+    double sphere_volume = 0; ///< summed over the spheres in the container; of a bed, over their parts in it
+    double all_spheres = 0; ///< the volumes of all spheres, wherever they are
     double container_volume = 0; ///< 0 without container: then nothing else is known
     double by_volume = 0;
-    uint64_t points = 0;         ///< uniform in the container
-    uint64_t hits = 0;           ///< of them in any sphere
+    uint64_t points = 0; ///< uniform in the container
+    uint64_t hits = 0; ///< of them in any sphere
     double by_points = 0, by_points_error = 0; ///< the latter from the binomial distribution
 
     /// Of the bulk: by volume, but below the surface of a mesh by the points that fall into it.
@@ -34,8 +34,8 @@ struct FractionProfile {
 /// Throws Cancelled.
 SolidFraction measure_fraction(const PackedSpheres& spheres, const Progress& progress = {});
 
-/// Of a mesh: against depth below its surface, in bins of a quarter of the mean radius; else along each axis, between the other
-/// axes' bed. Throws Cancelled.
+/// Of a mesh: against depth below its surface, in bins of a quarter of the mean radius; else along each axis, between
+/// the other axes' bed. Throws Cancelled.
 std::vector<FractionProfile> measure_profiles(const PackedSpheres& spheres, const Progress& progress = {});
 
 /// Volume of the part of a ball in a box along the axes, to 1e-3 of the ball.

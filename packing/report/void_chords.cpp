@@ -16,7 +16,8 @@ namespace {
 
 constexpr uint64_t line_seed = 0x6c696e65;
 constexpr double wanted_entries = 8e5, periods_per_line = 48, most_lines = 4e5;
-// A whole chord may start anywhere but in the last so many expected chords of its line: longer ones are cut, which are one in 10^5.
+// A whole chord may start anywhere but in the last so many expected chords of its line: longer ones are cut, which are
+// one in 10^5.
 constexpr double reserve = 12;
 constexpr size_t density_bins = 80;
 
@@ -40,8 +41,10 @@ struct LineSums {
 
 using Stretch = std::pair<double, double>; // from, to along the line
 
-/// The stretches of start + t direction, 0 <= t <= length, that lie in spheres: sorted, and those that overlap made one.
-void solid_stretches(const PackedSpheres& spheres, const V3d& start, const V3d& direction, double length, double step, std::vector<Stretch>& out)
+/// The stretches of start + t direction, 0 <= t <= length, that lie in spheres: sorted, and those that overlap made
+/// one.
+void solid_stretches(const PackedSpheres& spheres, const V3d& start, const V3d& direction, double length, double step,
+                     std::vector<Stretch>& out)
 {
     out.clear();
     const double before = spheres.largest_radius(), whole = length + 2 * before;
@@ -107,25 +110,28 @@ VoidChords measure_void_chords(const PackedSpheres& spheres, const SolidFraction
     const double step = std::max(2 * m.m[1], 1 / std::cbrt(fraction.number_density()));
     // Very dilute spheres: fewer lines, so that the steps between them stay some ten million.
     const double affordable = 1.5e7 / (length / step);
-    const auto lines = static_cast<uint64_t>(std::clamp(wanted_entries / periods_per_line, 1.0, std::min(most_lines, affordable)));
+    const auto lines =
+        static_cast<uint64_t>(std::clamp(wanted_entries / periods_per_line, 1.0, std::min(most_lines, affordable)));
     // In a mesh or bed most lines are shorter, so that more are drawn; those that start outside of the bulk are not.
     const bool endless = spheres.container() == PackedSpheres::Container::periodic_box;
-    const LineSums sums = ordered_sum<LineSums>(endless ? lines : 4 * lines, 128, "void chords", progress, [&](uint64_t begin, uint64_t end) {
-        LineSums part;
-        std::vector<Stretch> solid;
-        for (uint64_t i = begin; i < end; ++i) {
-            const V3d start = spheres.sample(i, line_seed);
-            if (!spheres.in_bulk(start)) continue;
-            const double z = 2 * unit_double(hash_index(i, line_seed, 3)) - 1, phi = 2 * std::numbers::pi * unit_double(hash_index(i, line_seed, 4));
-            const double s = std::sqrt(std::max(0.0, 1 - z * z));
-            const V3d direction(s * std::cos(phi), s * std::sin(phi), z);
-            const double way = spheres.way_in_bulk(start, direction, length);
-            if (!(way > 0)) continue;
-            solid_stretches(spheres, start, direction, way, step, solid);
-            measure_line(solid, way, result.expected, part);
-        }
-        return part;
-    });
+    const LineSums sums = ordered_sum<LineSums>(
+        endless ? lines : 4 * lines, 128, "void chords", progress, [&](uint64_t begin, uint64_t end) {
+            LineSums part;
+            std::vector<Stretch> solid;
+            for (uint64_t i = begin; i < end; ++i) {
+                const V3d start = spheres.sample(i, line_seed);
+                if (!spheres.in_bulk(start)) continue;
+                const double z = 2 * unit_double(hash_index(i, line_seed, 3)) - 1,
+                             phi = 2 * std::numbers::pi * unit_double(hash_index(i, line_seed, 4));
+                const double s = std::sqrt(std::max(0.0, 1 - z * z));
+                const V3d direction(s * std::cos(phi), s * std::sin(phi), z);
+                const double way = spheres.way_in_bulk(start, direction, length);
+                if (!(way > 0)) continue;
+                solid_stretches(spheres, start, direction, way, step, solid);
+                measure_line(solid, way, result.expected, part);
+            }
+            return part;
+        });
     if (sums.lines < 2 || sums.entries < 1) return result;
     result.lines = static_cast<uint64_t>(sums.lines);
     result.entries = static_cast<uint64_t>(sums.entries);
@@ -136,7 +142,8 @@ VoidChords measure_void_chords(const PackedSpheres& spheres, const SolidFraction
     const double scatter = sums.void2 - 2 * ratio * sums.product + ratio * ratio * sums.entries2;
     result.mean = {ratio, std::sqrt(std::max(0.0, scatter) * sums.lines / (sums.lines - 1)) / sums.entries};
     result.chords = sums.whole;
-    for (const uint64_t count : sums.chords) result.density.push_back(sums.whole > 0 ? double(count) / (double(sums.whole) * VoidChords::bin_width) : 0);
+    for (const uint64_t count : sums.chords)
+        result.density.push_back(sums.whole > 0 ? double(count) / (double(sums.whole) * VoidChords::bin_width) : 0);
     return result;
 }
 

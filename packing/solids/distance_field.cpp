@@ -26,7 +26,8 @@ constexpr double band = 2.5; ///< voxels on either side of the surface whose dis
 constexpr int block = Leaf::DIM; ///< voxels along a block's edge
 static_assert(block == 8);
 
-/// Voxels in space: voxel i is around origin + (i + 1/2) voxel, rounded; that rounded place is what its value belongs to.
+/// Voxels in space: voxel i is around origin + (i + 1/2) voxel, rounded; that rounded place is what its value belongs
+/// to.
 struct Lattice {
     V3d origin{0};
     double voxel = 1;
@@ -37,8 +38,8 @@ struct Lattice {
     V3d centre(const openvdb::Coord& c) const { return place(V3d(c.x() + 0.5, c.y() + 0.5, c.z() + 0.5)); }
 };
 
-/// The values of a block: distances in voxels, negative inside (as OpenVDB has it). A voxel that is not active holds less than
-/// its distance.
+/// The values of a block: distances in voxels, negative inside (as OpenVDB has it). A voxel that is not active holds
+/// less than its distance.
 struct Block {
     bool whole = true; ///< one value, value[0], not active
     std::array<float, block * block * block> value{};
@@ -51,9 +52,9 @@ struct Workspace {
     std::array<NearTriangles, 3> near;
 };
 
-/// Goes down from blocks to voxels. A cube is left as soon as the surface is farther than the band from all its voxels' centres;
-/// they are on the side its middle is on. The middle of a smaller cube is on that side too when it is within the ball
-/// around the larger one's middle that the surface does not reach into; else exact arithmetic tells.
+/// Goes down from blocks to voxels. A cube is left as soon as the surface is farther than the band from all its voxels'
+/// centres; they are on the side its middle is on. The middle of a smaller cube is on that side too when it is within
+/// the ball around the larger one's middle that the surface does not reach into; else exact arithmetic tells.
 class BlockFiller {
 public:
     BlockFiller(const SurfaceTree& surface, const Lattice& lattice, double slack, double scale)
@@ -90,7 +91,10 @@ private:
     }
 
     /// From the middle of a cube to the farthest of its voxels' centres; the middles of smaller cubes in it are nearer.
-    double half_diagonal(int edge) const { return std::sqrt(0.75) * (edge - 1) * lattice_.voxel * (1 + 1e-12) + slack_; }
+    double half_diagonal(int edge) const
+    {
+        return std::sqrt(0.75) * (edge - 1) * lattice_.voxel * (1 + 1e-12) + slack_;
+    }
 
     /// A lower bound of the distance from the centres of a cube's voxels.
     double clearance(const Middle& middle, int edge) const { return middle.distance.lo - half_diagonal(edge); }
@@ -98,7 +102,10 @@ private:
     bool is_clear(const Middle& middle, int edge) const { return clearance(middle, edge) >= band * lattice_.voxel; }
 
     /// How far from a cube's middle the triangles can be that are the nearest to the centre of one of its voxels.
-    double reach_of_nearest(const Middle& middle, int edge) const { return middle.distance.hi + 2 * half_diagonal(edge); }
+    double reach_of_nearest(const Middle& middle, int edge) const
+    {
+        return middle.distance.hi + 2 * half_diagonal(edge);
+    }
 
     float value(double distance, bool inside) const
     {
@@ -109,18 +116,21 @@ private:
     Middle look_at(const V3d& place, const Middle& larger, NearTriangles& near) const
     {
         Middle found{place, near.distance(place), larger.inside};
-        if (!(found.distance.hi - found.distance.lo <= slack_)) found.distance.lo = found.distance.hi = surface_.distance(place);
+        if (!(found.distance.hi - found.distance.lo <= slack_))
+            found.distance.lo = found.distance.hi = surface_.distance(place);
         const double step = lattice_.between(place, larger.place) * (1 + 1e-12);
         if (!(step + slack_ < larger.distance.lo)) found.inside = surface_.encloses(place);
         return found;
     }
 
-    void split(const openvdb::Coord& first, int edge, const Middle& middle, Workspace& work, size_t depth, Block& result) const
+    void split(const openvdb::Coord& first, int edge, const Middle& middle, Workspace& work, size_t depth,
+               Block& result) const
     {
         const int half = edge / 2;
         NearTriangles& near = work.near[depth];
         for (int child = 0; child < 8; ++child) {
-            const openvdb::Coord corner = first.offsetBy(child & 4 ? half : 0, child & 2 ? half : 0, child & 1 ? half : 0);
+            const openvdb::Coord corner =
+                first.offsetBy(child & 4 ? half : 0, child & 2 ? half : 0, child & 1 ? half : 0);
             const Middle found = look_at(middle_of(corner, half), middle, near);
             const bool clear = is_clear(found, half);
             if (half > 1 && !clear) {
@@ -128,7 +138,8 @@ private:
                 split(corner, half, found, work, depth + 1, result);
                 continue;
             }
-            const float filling = value(clear ? clearance(found, half) : found.distance.lo / 2 + found.distance.hi / 2, found.inside);
+            const float filling =
+                value(clear ? clearance(found, half) : found.distance.lo / 2 + found.distance.hi / 2, found.inside);
             for (int x = 0; x < half; ++x)
                 for (int y = 0; y < half; ++y)
                     for (int z = 0; z < half; ++z) {
@@ -149,10 +160,10 @@ private:
 struct DistanceField::Impl {
     openvdb::FloatTree tree{static_cast<float>(band)};
     Lattice lattice;
-    Imath::Box3d bounds;       ///< of the domain
-    openvdb::Coord voxels;     ///< along each axis
-    double slack = 0;          ///< what distances may be off by: their rounding, and that of places
-    double error = 0;          ///< slack, and the rounding of values to float
+    Imath::Box3d bounds; ///< of the domain
+    openvdb::Coord voxels; ///< along each axis
+    double slack = 0; ///< what distances may be off by: their rounding, and that of places
+    double error = 0; ///< slack, and the rounding of values to float
 
     void choose_lattice(int cells);
     void fill(const SurfaceTree& surface);
@@ -162,8 +173,8 @@ void DistanceField::Impl::choose_lattice(int cells)
 {
     const V3d size = bounds.size();
     const double longest = std::max({size.x, size.y, size.z});
-    const double farthest = std::max({std::abs(bounds.min.x), std::abs(bounds.min.y), std::abs(bounds.min.z), std::abs(bounds.max.x),
-                                      std::abs(bounds.max.y), std::abs(bounds.max.z)});
+    const double farthest = std::max({std::abs(bounds.min.x), std::abs(bounds.min.y), std::abs(bounds.min.z),
+                                      std::abs(bounds.max.x), std::abs(bounds.max.y), std::abs(bounds.max.z)});
     lattice.voxel = longest / cells;
     // Beyond the band around the bounds the bounds themselves tell as much.
     const double margin = band + 1;
@@ -179,13 +190,15 @@ void DistanceField::Impl::fill(const SurfaceTree& surface)
     const int exponent = std::ilogb(lattice.voxel * std::max({voxels.x(), voxels.y(), voxels.z()}));
     const BlockFiller filler(surface, lattice, slack, std::ldexp(1.0, std::clamp(-exponent, -1022, 1022)));
     tbb::enumerable_thread_specific<Workspace> workspaces;
-    const openvdb::Coord blocks((voxels.x() + block - 1) / block, (voxels.y() + block - 1) / block, (voxels.z() + block - 1) / block);
+    const openvdb::Coord blocks((voxels.x() + block - 1) / block, (voxels.y() + block - 1) / block,
+                                (voxels.z() + block - 1) / block);
     // A layer of blocks at a time: what waits to be put into the tree stays small.
     const auto across = static_cast<size_t>(blocks.y()) * static_cast<size_t>(blocks.z());
     std::vector<Block> layer(across);
     for (int x = 0; x < blocks.x(); ++x) {
         const auto corner = [&](size_t k) {
-            const auto y = static_cast<int>(k / static_cast<size_t>(blocks.z())), z = static_cast<int>(k % static_cast<size_t>(blocks.z()));
+            const auto y = static_cast<int>(k / static_cast<size_t>(blocks.z())),
+                       z = static_cast<int>(k % static_cast<size_t>(blocks.z()));
             return openvdb::Coord(x * block, y * block, z * block);
         };
         tbb::parallel_for(size_t{0}, across, [&](size_t k) { filler.fill(corner(k), workspaces.local(), layer[k]); });
@@ -234,12 +247,10 @@ DistanceField::Interval DistanceField::signed_distance(const V3d& point) const
     const double away = lattice.between(point, lattice.centre(voxel)) * (1 + 1e-12) + f.error;
     const double distance = -static_cast<double>(value) * lattice.voxel;
     if (active) return {distance - away, distance + away};
-    return distance > 0 ? Interval{distance * (1 - 1e-6) - away, infinity} : Interval{-infinity, distance * (1 - 1e-6) + away};
+    return distance > 0 ? Interval{distance * (1 - 1e-6) - away, infinity}
+                        : Interval{-infinity, distance * (1 - 1e-6) + away};
 }
 
-uint64_t DistanceField::bytes() const
-{
-    return impl_->tree.memUsage();
-}
+uint64_t DistanceField::bytes() const { return impl_->tree.memUsage(); }
 
 } // namespace scree

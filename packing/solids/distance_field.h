@@ -16,8 +16,8 @@ public:
         double lo, hi;
     };
 
-    /// cells: voxels along the longest side of the domain's bounds. A narrow band is stored; beyond it only the sign and
-    /// that the surface is farther than the band. It is never wrong: voxel and float errors are in the interval.
+    /// cells: voxels along the longest side of the domain's bounds. A narrow band is stored; beyond it only the sign
+    /// and that the surface is farther than the band. It is never wrong: voxel and float errors are in the interval.
     DistanceField(const Domain& domain, int cells = 256);
     ~DistanceField();
     DistanceField(const DistanceField&) = delete;

@@ -1,7 +1,7 @@
 #include "packing/solids/domain.h"
 
-#include "ingest/meshes/mesh_topology.h"
 #include "base/error.h"
+#include "ingest/meshes/mesh_topology.h"
 #include "packing/solids/mesh_defects.h"
 #include "packing/solids/mesh_shells.h"
 
@@ -27,8 +27,8 @@ struct Domain::Impl {
 
 namespace {
 
-/// By the divergence theorem. In extended precision: thin walls leave little of large sums. Scaled to about 1 and back, so
-/// that only a result which no double can hold overflows.
+/// By the divergence theorem. In extended precision: thin walls leave little of large sums. Scaled to about 1 and back,
+/// so that only a result which no double can hold overflows.
 double enclosed_volume(const TriangleMesh& mesh, const Imath::Box3d& bounds)
 {
     using Wide = Imath::Vec3<long double>;
@@ -44,10 +44,7 @@ double enclosed_volume(const TriangleMesh& mesh, const Imath::Box3d& bounds)
     return static_cast<double>(std::scalbn(sum / 6, 3 * exponent));
 }
 
-bool is_finite(const V3d& p)
-{
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
+bool is_finite(const V3d& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 } // namespace
 
@@ -58,42 +55,25 @@ Domain::Domain(TriangleMesh mesh, std::string place) : impl_(std::make_unique<Im
     d.place = std::move(place);
     if (const auto defect = find_surface_defect(d.mesh)) d.fail(*defect);
     d.tree.emplace(d.mesh);
-    if (const auto defect = describe_inside_out(d.mesh, find_inside_out_shells(d.mesh, find_shells(d.mesh), *d.tree))) d.fail(*defect);
+    if (const auto defect = describe_inside_out(d.mesh, find_inside_out_shells(d.mesh, find_shells(d.mesh), *d.tree)))
+        d.fail(*defect);
     d.bounds = bounds_of(d.mesh);
     d.volume = enclosed_volume(d.mesh, d.bounds);
 }
 
 Domain::~Domain() = default;
 
-const TriangleMesh& Domain::mesh() const
-{
-    return impl_->mesh;
-}
+const TriangleMesh& Domain::mesh() const { return impl_->mesh; }
 
-const std::string& Domain::place() const
-{
-    return impl_->place;
-}
+const std::string& Domain::place() const { return impl_->place; }
 
-const Imath::Box3d& Domain::bounds() const
-{
-    return impl_->bounds;
-}
+const Imath::Box3d& Domain::bounds() const { return impl_->bounds; }
 
-double Domain::volume() const
-{
-    return impl_->volume;
-}
+double Domain::volume() const { return impl_->volume; }
 
-const SurfaceTree& Domain::surface() const
-{
-    return *impl_->tree;
-}
+const SurfaceTree& Domain::surface() const { return *impl_->tree; }
 
-bool Domain::contains(const V3d& point) const
-{
-    return contains_sphere(point, 0);
-}
+bool Domain::contains(const V3d& point) const { return contains_sphere(point, 0); }
 
 bool Domain::contains_sphere(const V3d& centre, double radius) const
 {
@@ -105,9 +85,6 @@ bool Domain::contains_sphere(const V3d& centre, double radius) const
     return !impl_->tree->reaches_into_ball(centre, radius) && impl_->tree->encloses(centre);
 }
 
-double Domain::distance(const V3d& point) const
-{
-    return impl_->tree->distance(point);
-}
+double Domain::distance(const V3d& point) const { return impl_->tree->distance(point); }
 
 } // namespace scree

@@ -14,21 +14,30 @@ class SurfaceTree;
 
 /// A first thing that is wrong with a mesh as the boundary of a solid, told with its place.
 struct MeshDefect {
-    enum class Kind { empty, not_finite, degenerate, open, not_manifold, not_oriented, self_intersecting, inside_out } kind;
+    enum class Kind {
+        empty,
+        not_finite,
+        degenerate,
+        open,
+        not_manifold,
+        not_oriented,
+        self_intersecting,
+        inside_out
+    } kind;
     std::string found; ///< e.g. "edge 12-13 from (0, 0, 1) to (0, 1, 1) has one face"
     std::string hint;
 };
 
-/// What keeps the mesh from being the boundary of a solid: empty when nothing does. Checks go from cheap to dear, and only the
-/// first kind of defect met is reported (how many there are, and where the first is).
+/// What keeps the mesh from being the boundary of a solid: empty when nothing does. Checks go from cheap to dear, and
+/// only the first kind of defect met is reported (how many there are, and where the first is).
 std::vector<MeshDefect> find_defects(const TriangleMesh& mesh);
 
-/// Tries to make a mesh the boundary of a solid (CGAL's soup repair, stitching, small holes filled, orientation); says in
-/// `changes` what was done. The result may still have defects.
+/// Tries to make a mesh the boundary of a solid (CGAL's soup repair, stitching, small holes filled, orientation); says
+/// in `changes` what was done. The result may still have defects.
 TriangleMesh repair_mesh(const TriangleMesh& mesh, std::vector<std::string>& changes);
 
-/// The solid inside a closed, oriented, non-self-intersecting mesh (several shells and cavities are one solid). Answers are exact for
-/// the vertices as given; all of them may be asked from several threads.
+/// The solid inside a closed, oriented, non-self-intersecting mesh (several shells and cavities are one solid). Answers
+/// are exact for the vertices as given; all of them may be asked from several threads.
 class Domain {
 public:
     /// Throws InputError naming `place` and the first defect.
@@ -45,8 +54,8 @@ public:
 
     /// Whether the point is in the interior; points of the surface are not.
     bool contains(const Imath::V3d& point) const;
-    /// Whether the whole ball is inside: its centre is, and no triangle is nearer than the radius (equal will do). Exact:
-    /// arithmetic in double with an error bound decides, and exact arithmetic where that does not.
+    /// Whether the whole ball is inside: its centre is, and no triangle is nearer than the radius (equal will do).
+    /// Exact: arithmetic in double with an error bound decides, and exact arithmetic where that does not.
     bool contains_sphere(const Imath::V3d& centre, double radius) const;
     /// Distance to the surface (unsigned, correctly rounded to some 1e-14 of the bounds).
     double distance(const Imath::V3d& point) const;

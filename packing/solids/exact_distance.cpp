@@ -17,8 +17,8 @@ struct Witness {
     V3d nearest, direction;
 };
 
-/// Ericson, Real-Time Collision Detection (2005), 5.1.5: the regions of Voronoi of corners, edges and face. Rounding may choose
-/// the wrong one beside a border; what is proven from the witness does not rest on the choice.
+/// Ericson, Real-Time Collision Detection (2005), 5.1.5: the regions of Voronoi of corners, edges and face. Rounding
+/// may choose the wrong one beside a border; what is proven from the witness does not rest on the choice.
 Witness nearest_witness(const V3d& a, const V3d& b, const V3d& c)
 {
     const V3d ab = b - a, ac = c - a;
@@ -51,10 +51,7 @@ Witness nearest_witness(const V3d& a, const V3d& b, const V3d& c)
     return {p, normal.dot(a) >= 0 ? normal : -normal};
 }
 
-double largest(const V3d& v)
-{
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
+double largest(const V3d& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 } // namespace
 
@@ -66,16 +63,18 @@ DistanceBounds bound_distance(const V3d& point, const Corners& triangle, double 
 
     // Let u = 2^-53 and M = farthest; each component of a, b, c is within u M of the truth.
     //
-    // Above: the exact a + s (b - a) + t (c - a) with the s, t >= 0 that were computed, s + t <= 1 + 2u, is within 4 u M of a
-    // point of the triangle. What was computed for it is within 13 u M in each component (u M of a, 6 u M weighted by
-    // s + t for the two products and what they are made of, u M for each sum), 17 sqrt(3) u M < 30 u M in length; the root and
-    // the three squares under it add 2.5 u sqrt(3) M, and the last sum 2 u M. Together below 40 u M.
+    // Above: the exact a + s (b - a) + t (c - a) with the s, t >= 0 that were computed, s + t <= 1 + 2u, is within 4 u
+    // M of a point of the triangle. What was computed for it is within 13 u M in each component (u M of a, 6 u M
+    // weighted by s + t for the two products and what they are made of, u M for each sum), 17 sqrt(3) u M < 30 u M in
+    // length; the root and the three squares under it add 2.5 u sqrt(3) M, and the last sum 2 u M. Together below 40 u
+    // M.
     //
-    // Below: for any direction n the triangle is no nearer than min n.v / |n| over its corners v. A computed n.v is within
-    // 4 u M (|n_x| + |n_y| + |n_z|) <= 7 u M |n|; root, division and difference add 5 u sqrt(3) M. Together below 40 u M.
+    // Below: for any direction n the triangle is no nearer than min n.v / |n| over its corners v. A computed n.v is
+    // within 4 u M (|n_x| + |n_y| + |n_z|) <= 7 u M |n|; root, division and difference add 5 u sqrt(3) M. Together
+    // below 40 u M.
     //
-    // Underflow: squares of numbers below 2^-500 may vanish, so nothing shorter is claimed and no shorter direction used; what a
-    // product loses is below 2^-570 then.
+    // Underflow: squares of numbers below 2^-500 may vanish, so nothing shorter is claimed and no shorter direction
+    // used; what a product loses is below 2^-570 then.
     const double error = farthest * (40 * 0x1p-53) + 0x1p-498;
     DistanceBounds bounds{0, std::sqrt(w.nearest.dot(w.nearest)) + error};
     if (largest(w.direction) >= 0x1p-500) {
@@ -100,15 +99,9 @@ ExactVector difference(const V3d& a, const V3d& b)
     return {Exact(a.x) - Exact(b.x), Exact(a.y) - Exact(b.y), Exact(a.z) - Exact(b.z)};
 }
 
-ExactVector difference(const ExactVector& a, const ExactVector& b)
-{
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
+ExactVector difference(const ExactVector& a, const ExactVector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 
-Exact dot(const ExactVector& a, const ExactVector& b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
+Exact dot(const ExactVector& a, const ExactVector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 ExactVector cross(const ExactVector& a, const ExactVector& b)
 {
@@ -127,7 +120,8 @@ Exact squared_distance_to_segment(const ExactVector& a, const ExactVector& b)
 
 Exact squared_distance(const V3d& point, const Corners& triangle)
 {
-    const ExactVector v[3] = {difference(triangle[0], point), difference(triangle[1], point), difference(triangle[2], point)};
+    const ExactVector v[3] = {difference(triangle[0], point), difference(triangle[1], point),
+                              difference(triangle[2], point)};
     const ExactVector normal = cross(difference(v[1], v[0]), difference(v[2], v[0]));
     bool above = true;
     Exact nearest = dot(v[0], v[0]);
@@ -151,10 +145,7 @@ bool is_nearer_exactly(const V3d& point, const Corners& triangle, double distanc
     return squared_distance(point, triangle) < limit * limit;
 }
 
-bool touches_exactly(const V3d& point, const Corners& triangle)
-{
-    return squared_distance(point, triangle) == 0;
-}
+bool touches_exactly(const V3d& point, const Corners& triangle) { return squared_distance(point, triangle) == 0; }
 
 double distance_exactly(const V3d& point, const Corners& triangle)
 {

@@ -16,7 +16,8 @@ struct DistanceBounds {
 
 /// Proven bounds on the distance from a point to a triangle, some 1e-14 of the farthest corner's distance apart.
 ///
-/// scale: a power of two by which differences of places become about 1 in magnitude; the bounds are of the scaled distance.
+/// scale: a power of two by which differences of places become about 1 in magnitude; the bounds are of the scaled
+/// distance.
 DistanceBounds bound_distance(const Imath::V3d& point, const Corners& triangle, double scale);
 
 /// Whether the triangle is nearer to the point than `distance` (not negative), in exact arithmetic. All finite.

@@ -82,7 +82,8 @@ Cubes cubes_around(const Domain& domain)
         for (int y = 0; y < count[1]; ++y)
             for (int z = 0; z < count[2]; ++z) {
                 const V3d corner = lo + V3d(x, y, z) * cubes.edge, middle = corner + V3d(cubes.edge / 2);
-                if (domain.surface().rough_distance(middle, 0.1).lo <= reach || domain.contains(middle)) cubes.corner.push_back(corner);
+                if (domain.surface().rough_distance(middle, 0.1).lo <= reach || domain.contains(middle))
+                    cubes.corner.push_back(corner);
             }
     return cubes;
 }
@@ -154,7 +155,8 @@ V3d InteriorSampler::Impl::place_in_cell(uint64_t index, uint64_t seed) const
     double u[3] = {number(first_place_stream), number(first_place_stream + 1), number(first_place_stream + 2)};
     std::ranges::sort(u);
     const V3d& a = solid.points[i];
-    return a + (solid.points[j] - a) * u[0] + (solid.points[k] - a) * (u[1] - u[0]) + (solid.points[l] - a) * (u[2] - u[1]);
+    return a + (solid.points[j] - a) * u[0] + (solid.points[k] - a) * (u[1] - u[0]) +
+           (solid.points[l] - a) * (u[2] - u[1]);
 }
 
 V3d InteriorSampler::Impl::place_by_rejection(uint64_t index, uint64_t seed) const
@@ -162,12 +164,14 @@ V3d InteriorSampler::Impl::place_by_rejection(uint64_t index, uint64_t seed) con
     for (uint64_t stream = first_place_stream;; stream += 4) {
         const auto number = [&](uint64_t k) { return unit_double(hash_index(index, seed, stream + k)); };
         const auto cube = static_cast<size_t>(number(0) * static_cast<double>(cubes.corner.size()));
-        const V3d place = cubes.corner[std::min(cube, cubes.corner.size() - 1)] + V3d(number(1), number(2), number(3)) * cubes.edge;
+        const V3d place =
+            cubes.corner[std::min(cube, cubes.corner.size() - 1)] + V3d(number(1), number(2), number(3)) * cubes.edge;
         if (domain.contains(place)) return place;
     }
 }
 
-InteriorSampler::InteriorSampler(const Domain& domain, const TetgenOptions& options) : impl_(std::make_unique<Impl>(domain))
+InteriorSampler::InteriorSampler(const Domain& domain, const TetgenOptions& options)
+    : impl_(std::make_unique<Impl>(domain))
 {
     std::string trouble;
     Tetrahedra all = tetrahedralize(domain.mesh(), options, trouble);
@@ -182,24 +186,15 @@ InteriorSampler::InteriorSampler(const Domain& domain, const TetgenOptions& opti
 
 InteriorSampler::~InteriorSampler() = default;
 
-double InteriorSampler::volume() const
-{
-    return impl_->volume;
-}
+double InteriorSampler::volume() const { return impl_->volume; }
 
 V3d InteriorSampler::sample(uint64_t index, uint64_t seed) const
 {
     return by_tetgen() ? impl_->place_in_cell(index, seed) : impl_->place_by_rejection(index, seed);
 }
 
-const std::string& InteriorSampler::method() const
-{
-    return impl_->method;
-}
+const std::string& InteriorSampler::method() const { return impl_->method; }
 
-bool InteriorSampler::by_tetgen() const
-{
-    return impl_->cells.has_value();
-}
+bool InteriorSampler::by_tetgen() const { return impl_->cells.has_value(); }
 
 } // namespace scree

@@ -10,8 +10,9 @@ namespace scree {
 
 /// Volume of a domain and points uniform in it, from TetGen's tetrahedra.
 ///
-/// TetGen runs in a process of its own with limits of time and memory, so that no input can take this program down. Where it
-/// fails (or was not built in: SCREE_TETGEN=OFF) the volume is by the divergence theorem and points are found by rejection.
+/// TetGen runs in a process of its own with limits of time and memory, so that no input can take this program down.
+/// Where it fails (or was not built in: SCREE_TETGEN=OFF) the volume is by the divergence theorem and points are found
+/// by rejection.
 class InteriorSampler {
 public:
     /// The domain must outlive the sampler.

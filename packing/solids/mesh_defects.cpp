@@ -18,10 +18,7 @@ using Kind = MeshDefect::Kind;
 
 const char* const repair_hint = "--repair may mend it";
 
-std::string words_of(const V3d& p)
-{
-    return fmt::format("({}, {}, {})", p.x, p.y, p.z);
-}
+std::string words_of(const V3d& p) { return fmt::format("({}, {}, {})", p.x, p.y, p.z); }
 
 std::string words_of_face(const TriangleMesh& mesh, size_t face)
 {
@@ -32,7 +29,8 @@ std::string words_of_face(const TriangleMesh& mesh, size_t face)
 
 std::string words_of_edge(const TriangleMesh& mesh, uint32_t from, uint32_t to)
 {
-    return fmt::format("edge {}-{} from {} to {}", from, to, words_of(mesh.positions[from]), words_of(mesh.positions[to]));
+    return fmt::format("edge {}-{} from {} to {}", from, to, words_of(mesh.positions[from]),
+                       words_of(mesh.positions[to]));
 }
 
 /// " (one of 12 such edges)", or nothing when it is the only one.
@@ -48,7 +46,8 @@ std::optional<MeshDefect> find_bad_corner(const TriangleMesh& mesh)
     for (size_t face = 0; face < mesh.triangles.size(); ++face) {
         for (const uint32_t vertex : mesh.triangles[face]) {
             if (vertex < mesh.positions.size()) continue;
-            if (count++ == 0) found = fmt::format("face {} names vertex {}, and there are {}", face, vertex, mesh.positions.size());
+            if (count++ == 0)
+                found = fmt::format("face {} names vertex {}, and there are {}", face, vertex, mesh.positions.size());
         }
     }
     if (count == 0) return std::nullopt;
@@ -83,7 +82,8 @@ std::optional<MeshDefect> find_degenerate(const TriangleMesh& mesh)
         if (count++ == 0) first = face;
     }
     if (count == 0) return std::nullopt;
-    return MeshDefect{Kind::degenerate, words_of_face(mesh, first) + " has no area" + one_of(count, "faces"), repair_hint};
+    return MeshDefect{Kind::degenerate, words_of_face(mesh, first) + " has no area" + one_of(count, "faces"),
+                      repair_hint};
 }
 
 /// A face at one of its edges.
@@ -127,24 +127,32 @@ std::optional<MeshDefect> find_bad_edge(const TriangleMesh& mesh, const std::vec
         size_t end = begin;
         while (end < edges.size() && edges[end].same_edge(edges[begin])) ++end;
         const size_t faces = end - begin;
-        if (faces == 1) open.add(begin, end);
-        else if (faces > 2) crowded.add(begin, end);
-        else if (edges[begin].forward == edges[begin + 1].forward) against.add(begin, end);
+        if (faces == 1)
+            open.add(begin, end);
+        else if (faces > 2)
+            crowded.add(begin, end);
+        else if (edges[begin].forward == edges[begin + 1].forward)
+            against.add(begin, end);
         begin = end;
     }
     const auto words = [&](const Count& c) { return words_of_edge(mesh, edges[c.first].low, edges[c.first].high); };
     if (open.edges > 0) {
-        return MeshDefect{Kind::open, fmt::format("{} has one face, {}{}", words(open), edges[open.first].face, one_of(open.edges, "edges")),
-                          "--repair joins seams and closes small holes"};
+        return MeshDefect{
+            Kind::open,
+            fmt::format("{} has one face, {}{}", words(open), edges[open.first].face, one_of(open.edges, "edges")),
+            "--repair joins seams and closes small holes"};
     }
     if (crowded.edges > 0) {
-        return MeshDefect{Kind::not_manifold, fmt::format("{} has {} faces{}", words(crowded), crowded.faces, one_of(crowded.edges, "edges")),
-                          "--repair takes parts that touch at an edge asunder; walls without thickness need some"};
+        return MeshDefect{
+            Kind::not_manifold,
+            fmt::format("{} has {} faces{}", words(crowded), crowded.faces, one_of(crowded.edges, "edges")),
+            "--repair takes parts that touch at an edge asunder; walls without thickness need some"};
     }
     if (against.edges > 0) {
         return MeshDefect{Kind::not_oriented,
-                          fmt::format("{}: faces {} and {} disagree on which side is out{}", words(against), edges[against.first].face,
-                                      edges[against.first + 1].face, one_of(against.edges, "edges")),
+                          fmt::format("{}: faces {} and {} disagree on which side is out{}", words(against),
+                                      edges[against.first].face, edges[against.first + 1].face,
+                                      one_of(against.edges, "edges")),
                           "--repair turns faces to agree"};
     }
     return std::nullopt;
@@ -180,8 +188,8 @@ std::optional<MeshDefect> find_bad_vertex(const TriangleMesh& mesh, const std::v
     const auto vertex = static_cast<size_t>(first - fans.begin());
     const auto count = static_cast<uint64_t>(std::ranges::count_if(fans, bad));
     return MeshDefect{Kind::not_manifold,
-                      fmt::format("at vertex {} at {} {} separate fans of faces meet{}", vertex, words_of(mesh.positions[vertex]), *first,
-                                  one_of(count, "vertices")),
+                      fmt::format("at vertex {} at {} {} separate fans of faces meet{}", vertex,
+                                  words_of(mesh.positions[vertex]), *first, one_of(count, "vertices")),
                       "--repair gives each fan a vertex of its own"};
 }
 
@@ -190,17 +198,21 @@ std::optional<MeshDefect> find_self_intersection(const TriangleMesh& mesh)
     constexpr uint64_t enough = 100'000;
     const SelfIntersections found = find_self_intersections(mesh, enough);
     if (found.pairs == 0) return std::nullopt;
-    const std::string more = found.pairs > 1 ? fmt::format(" (the first of {}{} such pairs)", found.pairs >= enough ? "at least " : "", found.pairs) : "";
-    return MeshDefect{Kind::self_intersecting,
-                      fmt::format("{} meets {}{}", words_of_face(mesh, found.first), words_of_face(mesh, found.second), more),
-                      "--repair does not mend this: unite parts that overlap, or remesh the surface through a level set"};
+    const std::string more = found.pairs > 1 ? fmt::format(" (the first of {}{} such pairs)",
+                                                           found.pairs >= enough ? "at least " : "", found.pairs)
+                                             : "";
+    return MeshDefect{
+        Kind::self_intersecting,
+        fmt::format("{} meets {}{}", words_of_face(mesh, found.first), words_of_face(mesh, found.second), more),
+        "--repair does not mend this: unite parts that overlap, or remesh the surface through a level set"};
 }
 
 } // namespace
 
 std::optional<MeshDefect> find_surface_defect(const TriangleMesh& mesh)
 {
-    if (mesh.triangles.empty()) return MeshDefect{Kind::empty, fmt::format("no faces ({} vertices)", mesh.positions.size()), ""};
+    if (mesh.triangles.empty())
+        return MeshDefect{Kind::empty, fmt::format("no faces ({} vertices)", mesh.positions.size()), ""};
     if (auto defect = find_bad_corner(mesh)) return defect;
     if (auto defect = find_not_finite(mesh)) return defect;
     if (auto defect = find_degenerate(mesh)) return defect;
@@ -213,7 +225,9 @@ std::optional<MeshDefect> find_surface_defect(const TriangleMesh& mesh)
 std::optional<MeshDefect> describe_inside_out(const TriangleMesh& mesh, const std::vector<uint32_t>& faces)
 {
     if (faces.empty()) return std::nullopt;
-    return MeshDefect{Kind::inside_out, words_of_face(mesh, faces[0]) + " and its whole shell look into the solid" + one_of(faces.size(), "shells"),
+    return MeshDefect{Kind::inside_out,
+                      words_of_face(mesh, faces[0]) + " and its whole shell look into the solid" +
+                          one_of(faces.size(), "shells"),
                       "--repair turns shells to look outward"};
 }
 
@@ -221,7 +235,8 @@ std::vector<MeshDefect> find_defects(const TriangleMesh& mesh)
 {
     if (auto defect = find_surface_defect(mesh)) return {*defect};
     const SurfaceTree tree(mesh);
-    if (auto defect = describe_inside_out(mesh, find_inside_out_shells(mesh, find_shells(mesh), tree))) return {*defect};
+    if (auto defect = describe_inside_out(mesh, find_inside_out_shells(mesh, find_shells(mesh), tree)))
+        return {*defect};
     return {};
 }
 

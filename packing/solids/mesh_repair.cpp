@@ -47,13 +47,10 @@ private:
     std::vector<std::string>& words_;
 };
 
-bool is_finite(const V3d& p)
-{
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
+bool is_finite(const V3d& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-/// Power of two by which the largest finite coordinate becomes about 1: CGAL's choices among ways to fill a hole go by areas and
-/// angles in double, which overflow with the coordinates' fourth powers.
+/// Power of two by which the largest finite coordinate becomes about 1: CGAL's choices among ways to fill a hole go by
+/// areas and angles in double, which overflow with the coordinates' fourth powers.
 int exponent_of(const TriangleMesh& mesh)
 {
     double largest = 0;
@@ -73,16 +70,23 @@ Soup soup_of(const TriangleMesh& mesh, int exponent, Changes& changes)
     }
     uint64_t missing = 0, wild = 0, collapsed = 0;
     for (const auto& [a, b, c] : mesh.triangles) {
-        if (std::max({a, b, c}) >= mesh.positions.size()) ++missing;
-        else if (!is_finite(mesh.positions[a]) || !is_finite(mesh.positions[b]) || !is_finite(mesh.positions[c])) ++wild;
-        else soup.polygons.push_back({a, b, c});
+        if (std::max({a, b, c}) >= mesh.positions.size())
+            ++missing;
+        else if (!is_finite(mesh.positions[a]) || !is_finite(mesh.positions[b]) || !is_finite(mesh.positions[c]))
+            ++wild;
+        else
+            soup.polygons.push_back({a, b, c});
     }
-    changes.add(missing, "dropped {} face with a vertex that does not exist", "dropped {} faces with a vertex that does not exist");
-    changes.add(wild, "dropped {} face with a vertex that is not finite", "dropped {} faces with a vertex that is not finite");
+    changes.add(missing, "dropped {} face with a vertex that does not exist",
+                "dropped {} faces with a vertex that does not exist");
+    changes.add(wild, "dropped {} face with a vertex that is not finite",
+                "dropped {} faces with a vertex that is not finite");
     pmp::remove_isolated_points_in_polygon_soup(soup.points, soup.polygons);
     const std::size_t twins = pmp::merge_duplicate_points_in_polygon_soup(soup.points, soup.polygons);
-    changes.add(twins, "merged {} vertex with one at the same place", "merged {} vertices with others at the same place");
-    collapsed = std::erase_if(soup.polygons, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+    changes.add(twins, "merged {} vertex with one at the same place",
+                "merged {} vertices with others at the same place");
+    collapsed =
+        std::erase_if(soup.polygons, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
     changes.add(collapsed, "dropped {} face with a repeated vertex", "dropped {} faces with a repeated vertex");
     const std::size_t copies = pmp::merge_duplicate_polygons_in_polygon_soup(soup.points, soup.polygons);
     changes.add(copies, "dropped {} face that was there already", "dropped {} faces that were there already");
@@ -103,8 +107,10 @@ void orient(Soup& soup, Changes& changes)
     uint64_t turned = 0, doubled = 0;
     OrientationCounter counter(turned, doubled);
     pmp::orient_polygon_soup(soup.points, soup.polygons, CGAL::parameters::visitor(counter));
-    changes.add(turned, "turned {} face to agree with its neighbours", "turned {} faces to agree with their neighbours");
-    changes.add(doubled, "doubled {} vertex where parts of the surface touch", "doubled {} vertices where parts of the surface touch");
+    changes.add(turned, "turned {} face to agree with its neighbours",
+                "turned {} faces to agree with their neighbours");
+    changes.add(doubled, "doubled {} vertex where parts of the surface touch",
+                "doubled {} vertices where parts of the surface touch");
 }
 
 void fill_holes(Surface& surface, Changes& changes)
@@ -130,7 +136,9 @@ void fill_holes(Surface& surface, Changes& changes)
             edges_filled += edges;
         }
     }
-    if (filled > 0) changes.add(edges_filled, "filled a hole of {} edge", filled == 1 ? "filled a hole of {} edges" : "filled holes of {} edges in all");
+    if (filled > 0)
+        changes.add(edges_filled, "filled a hole of {} edge",
+                    filled == 1 ? "filled a hole of {} edges" : "filled holes of {} edges in all");
     changes.add(left, "found no way to fill {} hole", "found no way to fill {} holes");
 }
 
@@ -141,12 +149,14 @@ TriangleMesh mesh_of(const Surface& surface, int exponent)
     for (const auto vertex : surface.vertices()) {
         number[vertex.idx()] = static_cast<uint32_t>(mesh.positions.size());
         const Kernel::Point_3& p = surface.point(vertex);
-        mesh.positions.emplace_back(std::scalbn(p.x(), exponent), std::scalbn(p.y(), exponent), std::scalbn(p.z(), exponent));
+        mesh.positions.emplace_back(std::scalbn(p.x(), exponent), std::scalbn(p.y(), exponent),
+                                    std::scalbn(p.z(), exponent));
     }
     for (const auto face : surface.faces()) {
         std::array<uint32_t, 3> corners{};
         size_t k = 0;
-        for (const auto vertex : CGAL::vertices_around_face(surface.halfedge(face), surface)) corners.at(k++) = number[vertex.idx()];
+        for (const auto vertex : CGAL::vertices_around_face(surface.halfedge(face), surface))
+            corners.at(k++) = number[vertex.idx()];
         mesh.triangles.push_back(corners);
     }
     return mesh;
@@ -162,7 +172,8 @@ void turn_shells(TriangleMesh& mesh, Changes& changes)
     for (const uint32_t face : inside_out) turn[shells.of_face[face]] = true;
     for (size_t face = 0; face < mesh.triangles.size(); ++face)
         if (turn[shells.of_face[face]]) std::swap(mesh.triangles[face][1], mesh.triangles[face][2]);
-    changes.add(inside_out.size(), "turned {} shell that looked into the solid", "turned {} shells that looked into the solid");
+    changes.add(inside_out.size(), "turned {} shell that looked into the solid",
+                "turned {} shells that looked into the solid");
 }
 
 TriangleMesh repaired(const TriangleMesh& mesh, Changes& changes)

@@ -38,7 +38,8 @@ MeshShells find_shells(const TriangleMesh& mesh)
     return shells;
 }
 
-std::vector<uint32_t> find_inside_out_shells(const TriangleMesh& mesh, const MeshShells& shells, const SurfaceTree& tree)
+std::vector<uint32_t> find_inside_out_shells(const TriangleMesh& mesh, const MeshShells& shells,
+                                             const SurfaceTree& tree)
 {
     std::vector<bool> told(shells.count, false);
     std::vector<uint32_t> inside_out;

@@ -14,8 +14,10 @@ struct MeshShells {
 
 MeshShells find_shells(const TriangleMesh& mesh);
 
-/// Faces, one a shell and the lowest that tells, of the shells that look into the solid: outer shells that look inward, or
-/// shells of cavities that look outward. The mesh must be closed, each shell oriented, and nowhere self-intersecting.
-std::vector<uint32_t> find_inside_out_shells(const TriangleMesh& mesh, const MeshShells& shells, const SurfaceTree& tree);
+/// Faces, one a shell and the lowest that tells, of the shells that look into the solid: outer shells that look inward,
+/// or shells of cavities that look outward. The mesh must be closed, each shell oriented, and nowhere
+/// self-intersecting.
+std::vector<uint32_t> find_inside_out_shells(const TriangleMesh& mesh, const MeshShells& shells,
+                                             const SurfaceTree& tree);
 
 } // namespace scree

@@ -21,18 +21,15 @@ constexpr uint64_t slot_count = uint64_t{1} << 19;
 constexpr uint64_t most_probes = 16;
 constexpr uint64_t most_bytes = uint64_t{96} << 20; // of cells
 constexpr size_t most_triangles = 128; // of a cell: where more are near, the tree is faster than the list
-constexpr int axis_bits = 20;         // of a cell's number along an axis
+constexpr int axis_bits = 20; // of a cell's number along an axis
 constexpr size_t lanes = 8;
 
-double largest_component(const V3d& v)
-{
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
+double largest_component(const V3d& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 using Lanes = std::array<float, lanes>;
 
-/// The planes of triangles, scaled, with unit normals n pointing out of the solid: a place q from the cell's middle is n.q - offset
-/// above one. A triangle whose plane is not known well has a zero normal and offset.
+/// The planes of triangles, scaled, with unit normals n pointing out of the solid: a place q from the cell's middle is
+/// n.q - offset above one. A triangle whose plane is not known well has a zero normal and offset.
 struct Planes {
     Lanes x, y, z, offset;
     std::array<uint32_t, lanes> face;
@@ -49,7 +46,7 @@ struct Planes {
 
 /// A triangle in short: its plane, and how far a place is beyond its edges.
 struct SurfaceCells::Plate {
-    V3d middle, normal;      ///< scene units; unit normal out of the solid, zero where it is not known well
+    V3d middle, normal; ///< scene units; unit normal out of the solid, zero where it is not known well
     std::array<V3f, 3> side; ///< nearly unit vectors
     std::array<float, 3> reach{}; ///< scaled: of the triangle from its middle along each side's vector, at most
 
@@ -59,7 +56,8 @@ struct SurfaceCells::Plate {
         for (size_t k = 0; k < 3; ++k) c[k] = (corners[k] - middle) * scale;
         const V3d ab = (corners[1] - corners[0]) * scale, ac = (corners[2] - corners[0]) * scale, cross = ab.cross(ac);
         const double length = cross.length(), radius = std::max({c[0].length(), c[1].length(), c[2].length()});
-        // Each component of the cross product is off by less than 4 * 2^-53 of the edges' product, which turns the normal by no more than this.
+        // Each component of the cross product is off by less than 4 * 2^-53 of the edges' product, which turns the
+        // normal by no more than this.
         const double turn = 8 * 0x1p-53 * ab.length() * ac.length() / length;
         normal = length > 0x1p-900 && turn * (8 * half + radius) <= 0x1p-26 * half ? cross / length : V3d(0);
         for (size_t k = 0; k < 3; ++k) {
@@ -75,8 +73,8 @@ struct SurfaceCells::Plate {
     {
         const V3f q(place);
         const float most = std::max({side[0].dot(q) - reach[0], side[1].dot(q) - reach[1], side[2].dot(q) - reach[2]});
-        // Let u = 2^-24: the vectors' lengths, q, the product and the difference are off by less than 8 u of |q| in all, as what is above zero has a
-        // smaller reach than |q|.
+        // Let u = 2^-24: the vectors' lengths, q, the product and the difference are off by less than 8 u of |q| in
+        // all, as what is above zero has a smaller reach than |q|.
         return most - 0x1p-19 * (std::abs(place.x) + std::abs(place.y) + std::abs(place.z));
     }
 };
@@ -86,7 +84,8 @@ struct SurfaceCells::Cell {
     uint64_t key = 0;
     Kind kind = Kind::crowded;
     uint32_t count = 0;
-    std::vector<Planes> planes; // of all triangles that may be the nearest to a place in the cell, or within the largest radius of it; the last repeats
+    std::vector<Planes> planes; // of all triangles that may be the nearest to a place in the cell, or within the
+                                // largest radius of it; the last repeats
 };
 
 SurfaceCells::SurfaceCells(const Domain& domain, double largest) : domain_(domain), largest_(largest)
@@ -98,7 +97,9 @@ SurfaceCells::SurfaceCells(const Domain& domain, double largest) : domain_(domai
     const double edge = std::max(longest / std::max(64.0, std::sqrt(faces)), 4 * largest);
     // Beyond what follows is written for, there are no cells.
     const double farthest = std::max(largest_component(domain.bounds().min), largest_component(domain.bounds().max));
-    if (!(largest > 0) || !(longest > 0x1p-900) || !(longest < 0x1p900) || !(edge < longest) || !(longest / edge < (1 << axis_bits) - 2) || !(farthest < 0x1p20 * edge)) return;
+    if (!(largest > 0) || !(longest > 0x1p-900) || !(longest < 0x1p900) || !(edge < longest) ||
+        !(longest / edge < (1 << axis_bits) - 2) || !(farthest < 0x1p20 * edge))
+        return;
     scale_ = std::ldexp(1.0, -std::ilogb(longest) - 1);
     edge_ = edge;
     half_ = std::sqrt(0.75) * edge_ * (1 + 0x1p-20);
@@ -106,7 +107,8 @@ SurfaceCells::SurfaceCells(const Domain& domain, double largest) : domain_(domai
     error_ = static_cast<float>(half_ * scale_ * 0x1p-18);
     slots_ = std::make_unique<std::atomic<const Cell*>[]>(slot_count);
     plates_.reserve(domain.mesh().triangles.size());
-    for (uint32_t face = 0; face < domain.mesh().triangles.size(); ++face) plates_.emplace_back(corners(face), scale_, half_ * scale_);
+    for (uint32_t face = 0; face < domain.mesh().triangles.size(); ++face)
+        plates_.emplace_back(corners(face), scale_, half_ * scale_);
     bytes_ = slot_count * sizeof(slots_[0]) + plates_.size() * sizeof(Plate);
 }
 
@@ -116,15 +118,13 @@ SurfaceCells::~SurfaceCells()
     for (uint64_t k = 0; k < slot_count; ++k) delete slots_[k].load();
 }
 
-uint64_t SurfaceCells::bytes() const
-{
-    return bytes_.load();
-}
+uint64_t SurfaceCells::bytes() const { return bytes_.load(); }
 
 V3d SurfaceCells::middle(uint64_t key) const
 {
     constexpr uint64_t mask = (uint64_t{1} << axis_bits) - 1;
-    const V3d index(static_cast<double>(key & mask), static_cast<double>(key >> axis_bits & mask), static_cast<double>(key >> 2 * axis_bits));
+    const V3d index(static_cast<double>(key & mask), static_cast<double>(key >> axis_bits & mask),
+                    static_cast<double>(key >> 2 * axis_bits));
     return domain_.bounds().min + (index + V3d(0.5)) * edge_;
 }
 
@@ -165,10 +165,10 @@ std::unique_ptr<SurfaceCells::Cell> SurfaceCells::make(uint64_t key) const
     std::vector<uint32_t> faces;
     domain_.surface().collect_near(m, (3 * half_ + largest_) * (1 + 0x1p-40), faces);
 
-    // Let u = 2^-24 and H be half; largest < 0.3 H, so all are within 3.4 H, and |q| <= H. Places are off by less than 2^-4 u H, as the
-    // bounds are within 2^20 edges of the origin. Heights are off by u H each for the rounding of normal and q, 3 u H for
-    // that of the product, 4.4 u H for the difference, 3.4 u H for the offset's rounding, and u H for the normal's own
-    // error: below 15 u H. `error_` is 64 u H.
+    // Let u = 2^-24 and H be half; largest < 0.3 H, so all are within 3.4 H, and |q| <= H. Places are off by less than
+    // 2^-4 u H, as the bounds are within 2^20 edges of the origin. Heights are off by u H each for the rounding of
+    // normal and q, 3 u H for that of the product, 4.4 u H for the difference, 3.4 u H for the offset's rounding, and u
+    // H for the normal's own error: below 15 u H. `error_` is 64 u H.
     std::vector<double> least(faces.size());
     double lowest = std::numeric_limits<double>::infinity();
     size_t first = 0;
@@ -224,7 +224,8 @@ bool SurfaceCells::contains_sphere(const V3d& centre, double radius) const
         const auto along = [&](int k) { return static_cast<uint64_t>(index[k]); };
         const uint64_t key = along(0) | along(1) << axis_bits | along(2) << 2 * axis_bits;
         if (const Cell* cell = find(key)) {
-            if (cell->kind == Cell::Kind::inside || cell->kind == Cell::Kind::outside) return cell->kind == Cell::Kind::inside;
+            if (cell->kind == Cell::Kind::inside || cell->kind == Cell::Kind::outside)
+                return cell->kind == Cell::Kind::inside;
             if (cell->kind == Cell::Kind::near) {
                 const Answer answer = ask(*cell, (centre - middle(key)) * scale_, centre, radius);
                 if (answer != Answer::unknown) return answer == Answer::yes;
@@ -250,10 +251,11 @@ SurfaceCells::Answer SurfaceCells::ask(const Cell& cell, const V3d& offset, cons
             height[g * lanes + k] = h[k];
         }
     }
-    const float lowest = *std::min_element(lows.begin(), lows.end()), highest = *std::max_element(highs.begin(), highs.end());
-    // The triangles that meet where the surface is nearest are among these. Where the centre is behind all of them it is inside, and
-    // where it is before all of them outside: an average of their normals tells (Baerentzen and Aanaes 2005). And no
-    // triangle is nearer than its plane.
+    const float lowest = *std::min_element(lows.begin(), lows.end()),
+                highest = *std::max_element(highs.begin(), highs.end());
+    // The triangles that meet where the surface is nearest are among these. Where the centre is behind all of them it
+    // is inside, and where it is before all of them outside: an average of their normals tells (Baerentzen and Aanaes
+    // 2005). And no triangle is nearer than its plane.
     if (lowest > error_) return Answer::no;
     const double r = radius * scale_;
     if (-double{highest} >= r + error_) return Answer::yes;

@@ -10,10 +10,12 @@
 
 namespace scree {
 
-/// Answers whether small balls are whole inside a domain from the few triangles near them, which it keeps by cubic cells.
+/// Answers whether small balls are whole inside a domain from the few triangles near them, which it keeps by cubic
+/// cells.
 ///
-/// A cell is filled when a ball is first asked about in it. The answer is Domain::contains_sphere's: planes in float with proven
-/// bounds settle nearly all, triangles in double most of the others, and the domain the rest. Any thread may ask.
+/// A cell is filled when a ball is first asked about in it. The answer is Domain::contains_sphere's: planes in float
+/// with proven bounds settle nearly all, triangles in double most of the others, and the domain the rest. Any thread
+/// may ask.
 class SurfaceCells {
 public:
     /// largest: of the radii that will be asked about; cells are made for it. The domain must outlive this.
@@ -43,11 +45,11 @@ private:
     Answer ask(const Cell& cell, const Imath::V3d& offset, const Imath::V3d& centre, double radius) const;
 
     const Domain& domain_;
-    double scale_ = 1;       // power of two that brings the bounds' longest edge to 1/2..1
-    double edge_ = 0;        // of a cell; 0 where there are none
-    double half_ = 0;        // of a cell's diagonal, and a little more
+    double scale_ = 1; // power of two that brings the bounds' longest edge to 1/2..1
+    double edge_ = 0; // of a cell; 0 where there are none
+    double half_ = 0; // of a cell's diagonal, and a little more
     double largest_;
-    float error_ = 0;        // of what is computed in float; scaled
+    float error_ = 0; // of what is computed in float; scaled
     std::vector<Plate> plates_; // by face
     // By a hash of the key, open addressing; null where there is none yet.
     std::unique_ptr<std::atomic<const Cell*>[]> slots_;

@@ -28,7 +28,10 @@ public:
 
     Face(uint32_t number, const Corners& corners) : corners_(corners), number_(number) {}
     /// As the tree makes them: from iterators over faces.
-    template <class Iterator> explicit Face(Iterator face) : Face(*face) {}
+    template <class Iterator>
+    explicit Face(Iterator face) : Face(*face)
+    {
+    }
 
     Id id() const { return number_; }
     Datum datum() const { return {point(0), point(1), point(2)}; }
@@ -53,7 +56,8 @@ public:
 
     double operator()(const CGAL::Bbox_3& box) const
     {
-        return square(gap(box.xmin(), box.xmax(), point_.x), gap(box.ymin(), box.ymax(), point_.y), gap(box.zmin(), box.zmax(), point_.z));
+        return square(gap(box.xmin(), box.xmax(), point_.x), gap(box.ymin(), box.ymax(), point_.y),
+                      gap(box.zmin(), box.zmax(), point_.z));
     }
     /// Of the triangle's box.
     double operator()(const Corners& triangle) const
@@ -74,10 +78,7 @@ private:
 };
 
 /// A square from which on a box's squared distance means that the box is farther than `length`.
-double safe_square(double length)
-{
-    return length * length * (1 + 0x1p-49) + 0x1p-1000;
-}
+double safe_square(double length) { return length * length * (1 + 0x1p-49) + 0x1p-1000; }
 
 /// The question "does a triangle reach into this ball?", as CGAL's tree asks it of its nodes and leaves.
 class BallTraversal {
@@ -95,8 +96,10 @@ public:
         if (box_distance_(face.corners()) > square_) return;
         const DistanceBounds d = bound_distance(centre_, face.corners(), scale_);
         if (d.lo > 0 && d.lo >= scaled_radius_) return;
-        if (d.hi < scaled_radius_) reaches_ = true;
-        else reaches_ = is_nearer_exactly(centre_, face.corners(), radius_) || touches_exactly(centre_, face.corners());
+        if (d.hi < scaled_radius_)
+            reaches_ = true;
+        else
+            reaches_ = is_nearer_exactly(centre_, face.corners(), radius_) || touches_exactly(centre_, face.corners());
     }
     bool reaches() const { return reaches_; }
 
@@ -107,9 +110,11 @@ private:
     bool reaches_ = false;
 };
 
-/// The side of the line a to b, seen from above, on which q shifted by (e, e^2) lies, e being as small as you like (simulation
-/// of simplicity, Edelsbrunner and Mücke 1990): zero only when a is above b. So a ray upward never meets an edge.
-template <class K> CGAL::Sign side_of_edge(const CGAL::Point_3<K>& a, const CGAL::Point_3<K>& b, const CGAL::Point_3<K>& q)
+/// The side of the line a to b, seen from above, on which q shifted by (e, e^2) lies, e being as small as you like
+/// (simulation of simplicity, Edelsbrunner and Mücke 1990): zero only when a is above b. So a ray upward never meets an
+/// edge.
+template <class K>
+CGAL::Sign side_of_edge(const CGAL::Point_3<K>& a, const CGAL::Point_3<K>& b, const CGAL::Point_3<K>& q)
 {
     using Flat = CGAL::Point_2<K>;
     const CGAL::Sign side = CGAL::orientation(Flat(a.x(), a.y()), Flat(b.x(), b.y()), Flat(q.x(), q.y()));
@@ -119,24 +124,31 @@ template <class K> CGAL::Sign side_of_edge(const CGAL::Point_3<K>& a, const CGAL
 }
 
 /// Whether the ray upward from the shifted q meets the triangle.
-template <class K> bool is_above(const CGAL::Point_3<K>& a, const CGAL::Point_3<K>& b, const CGAL::Point_3<K>& c, const CGAL::Point_3<K>& q)
+template <class K>
+bool is_above(const CGAL::Point_3<K>& a, const CGAL::Point_3<K>& b, const CGAL::Point_3<K>& c,
+              const CGAL::Point_3<K>& q)
 {
     const CGAL::Sign side = side_of_edge<K>(a, b, q);
     if (side == CGAL::ZERO || side_of_edge<K>(b, c, q) != side || side_of_edge<K>(c, a, q) != side) return false;
     return CGAL::orientation(a, b, c, q) == -side;
 }
 
-template <class K> CGAL::Point_3<K> point_of(const V3d& p)
+template <class K>
+CGAL::Point_3<K> point_of(const V3d& p)
 {
     return {p.x, p.y, p.z};
 }
 
 /// Counts the triangles above a point, given with a box that holds it.
-template <class K> class UpwardTraversal {
+template <class K>
+class UpwardTraversal {
 public:
     using Point = CGAL::Point_3<K>;
 
-    UpwardTraversal(const Point& point, const CGAL::Bbox_3& box, uint32_t without) : point_(point), box_(box), without_(without) {}
+    UpwardTraversal(const Point& point, const CGAL::Bbox_3& box, uint32_t without)
+        : point_(point), box_(box), without_(without)
+    {
+    }
 
     bool go_further() const { return true; }
     bool do_intersect(const V3d&, const Node& node) const { return may_be_above(node.bbox()); }
@@ -155,8 +167,8 @@ public:
 private:
     bool may_be_above(const CGAL::Bbox_3& box) const
     {
-        return box.xmin() <= box_.xmax() && box.xmax() >= box_.xmin() && box.ymin() <= box_.ymax() && box.ymax() >= box_.ymin() &&
-               box.zmax() >= box_.zmin();
+        return box.xmin() <= box_.xmax() && box.xmax() >= box_.xmin() && box.ymin() <= box_.ymax() &&
+               box.ymax() >= box_.ymin() && box.zmax() >= box_.zmin();
     }
 
     Point point_;
@@ -229,7 +241,8 @@ private:
 };
 
 /// Gathers triangles whose boxes are within a distance: their corners or their numbers.
-template <class Found> class NearTraversal {
+template <class Found>
+class NearTraversal {
 public:
     NearTraversal(const V3d& point, double scale, double within, std::vector<Found>& found)
         : square_(safe_square(within)), box_distance_(point, scale), found_(found)
@@ -241,8 +254,10 @@ public:
     void intersection(const V3d&, const Face& face)
     {
         if (box_distance_(face.corners()) > square_) return;
-        if constexpr (std::is_same_v<Found, Corners>) found_.push_back(face.corners());
-        else found_.push_back(face.id());
+        if constexpr (std::is_same_v<Found, Corners>)
+            found_.push_back(face.corners());
+        else
+            found_.push_back(face.id());
     }
 
 private:
@@ -274,7 +289,8 @@ struct SurfaceTree::Impl {
         if (longest > 0) scale = std::ldexp(1.0, std::clamp(-std::ilogb(longest) - 2, -1022, 1022));
         std::vector<Face> faces;
         faces.reserve(mesh.triangles.size());
-        for (size_t face = 0; face < mesh.triangles.size(); ++face) faces.emplace_back(static_cast<uint32_t>(face), corners_of(mesh, face));
+        for (size_t face = 0; face < mesh.triangles.size(); ++face)
+            faces.emplace_back(static_cast<uint32_t>(face), corners_of(mesh, face));
         tree.insert(faces.begin(), faces.end());
         tree.build(); // now: building at the first query is not for many threads
     }

@@ -24,8 +24,8 @@ public:
     /// Whether a triangle is nearer to the centre than the radius, or touches the centre itself.
     bool reaches_into_ball(const Imath::V3d& centre, double radius) const;
 
-    /// Whether an odd number of triangles is above the point (towards +z), so that a closed surface encloses it. Points of
-    /// the surface are on either side.
+    /// Whether an odd number of triangles is above the point (towards +z), so that a closed surface encloses it. Points
+    /// of the surface are on either side.
     bool encloses(const Imath::V3d& point) const;
 
     /// Whether the places just in front of a face (where its normal points) are not enclosed; nothing when the face is

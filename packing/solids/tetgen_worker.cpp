@@ -1,7 +1,7 @@
 // scree-tetgen SECONDS MEGABYTES: fills a closed surface from standard input with tetrahedra (TetGen).
 //
-// A program of its own, so that nothing TetGen does with an input can harm the one that asked: it may throw ints, overrun its
-// memory or never end. Messages are those of packing/tetgen_message.h.
+// A program of its own, so that nothing TetGen does with an input can harm the one that asked: it may throw ints,
+// overrun its memory or never end. Messages are those of packing/tetgen_message.h.
 
 #include "packing/solids/tetgen_message.h"
 
@@ -49,7 +49,8 @@ bool write_all(int file, const void* data, size_t bytes)
     return true;
 }
 
-/// False unless the input is a whole message. The memory is TetGen's: what it holds is never freed here, the process ends.
+/// False unless the input is a whole message. The memory is TetGen's: what it holds is never freed here, the process
+/// ends.
 bool read_surface(tetgenio& surface)
 {
     scree::TetgenHead head;
@@ -83,7 +84,8 @@ bool read_surface(tetgenio& surface)
 
 bool write_tetrahedra(int file, const tetgenio& solid)
 {
-    const auto points = static_cast<uint64_t>(solid.numberofpoints), cells = static_cast<uint64_t>(solid.numberoftetrahedra);
+    const auto points = static_cast<uint64_t>(solid.numberofpoints),
+               cells = static_cast<uint64_t>(solid.numberoftetrahedra);
     const scree::TetgenHead head{scree::TetgenHead::answer, points, cells};
     std::vector<uint32_t> corners;
     std::vector<int32_t> regions;

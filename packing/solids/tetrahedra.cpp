@@ -1,9 +1,9 @@
 #include "packing/solids/tetrahedra.h"
 
 #include "base/program_folder.h"
+#include "base/worker_process.h"
 #include "ingest/meshes/weld.h"
 #include "packing/solids/tetgen_message.h"
-#include "base/worker_process.h"
 
 #include <Imath/ImathBox.h>
 #include <fmt/format.h>
@@ -70,7 +70,8 @@ Message message_of(const TriangleMesh& mesh)
     return message;
 }
 
-template <class T> void append(std::vector<char>& bytes, const T* values, size_t count)
+template <class T>
+void append(std::vector<char>& bytes, const T* values, size_t count)
 {
     const size_t at = bytes.size();
     bytes.resize(at + count * sizeof(T));
@@ -78,7 +79,8 @@ template <class T> void append(std::vector<char>& bytes, const T* values, size_t
 }
 
 /// Takes values from the front of what is left; false when there are too few.
-template <class T> bool take(std::span<const char>& bytes, T* values, size_t count)
+template <class T>
+bool take(std::span<const char>& bytes, T* values, size_t count)
 {
     if (bytes.size() / sizeof(T) < count) return false;
     if (count > 0) std::memcpy(static_cast<void*>(values), bytes.data(), count * sizeof(T));
@@ -91,7 +93,9 @@ bool read_answer(std::span<const char> bytes, const Message& message, Tetrahedra
 {
     TetgenHead head;
     if (!take(bytes, &head, 1) || head.magic != TetgenHead::answer) return false;
-    if (head.points < message.points.size() || head.points > bytes.size() / sizeof(V3d) || head.cells > bytes.size() / 20) return false;
+    if (head.points < message.points.size() || head.points > bytes.size() / sizeof(V3d) ||
+        head.cells > bytes.size() / 20)
+        return false;
     result.points.resize(head.points);
     result.cells.resize(head.cells);
     result.region.resize(head.cells);
@@ -105,7 +109,8 @@ bool read_answer(std::span<const char> bytes, const Message& message, Tetrahedra
     for (const V3d& p : result.points)
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
     std::ranges::copy(message.places, result.points.begin());
-    for (size_t k = message.places.size(); k < result.points.size(); ++k) result.points[k] = message.received(result.points[k]);
+    for (size_t k = message.places.size(); k < result.points.size(); ++k)
+        result.points[k] = message.received(result.points[k]);
     return true;
 }
 
@@ -127,7 +132,8 @@ std::string words_of_status(int status)
 
 Tetrahedra tetrahedralize(const TriangleMesh& mesh, const TetgenOptions& options, std::string& trouble)
 {
-    const std::filesystem::path program = options.program.empty() ? folder_of_this_program() / "scree-tetgen" : options.program;
+    const std::filesystem::path program =
+        options.program.empty() ? folder_of_this_program() / "scree-tetgen" : options.program;
     std::error_code error;
     if (!std::filesystem::exists(program, error)) {
         trouble = fmt::format("there is no {}", program.string());
@@ -141,12 +147,15 @@ Tetrahedra tetrahedralize(const TriangleMesh& mesh, const TetgenOptions& options
     append(bytes, message.corners.data(), message.corners.size());
 
     const auto seconds = std::chrono::ceil<std::chrono::seconds>(options.time).count();
-    const WorkerResult run = run_worker(program, {std::to_string(seconds), std::to_string(options.megabytes)}, bytes, options.time,
-                                        options.megabytes << 20);
+    const WorkerResult run = run_worker(program, {std::to_string(seconds), std::to_string(options.megabytes)}, bytes,
+                                        options.time, options.megabytes << 20);
     Tetrahedra result;
-    if (!run.finished) trouble = run.trouble.empty() ? words_of_status(run.status) : run.trouble;
-    else if (!read_answer(run.output, message, result)) trouble = "its answer makes no sense";
-    else if (result.cells.empty()) trouble = "it found nothing enclosed";
+    if (!run.finished)
+        trouble = run.trouble.empty() ? words_of_status(run.status) : run.trouble;
+    else if (!read_answer(run.output, message, result))
+        trouble = "its answer makes no sense";
+    else if (result.cells.empty())
+        trouble = "it found nothing enclosed";
     if (!trouble.empty()) return {};
     return result;
 }

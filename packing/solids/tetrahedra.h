@@ -25,8 +25,8 @@ struct TetgenOptions {
 /// Fills what a surface encloses, cavities too, with tetrahedra by TetGen in a process of its own (`scree-tetgen`).
 /// Faces stay whole, so volumes are exact; points beside the surface's own are inner ones.
 ///
-/// Any input will do: nothing happens to this program. Empty when TetGen fails; `trouble` then tells why. Coordinates are
-/// moved and scaled on the way so that the result has those of the surface.
+/// Any input will do: nothing happens to this program. Empty when TetGen fails; `trouble` then tells why. Coordinates
+/// are moved and scaled on the way so that the result has those of the surface.
 Tetrahedra tetrahedralize(const TriangleMesh& mesh, const TetgenOptions& options, std::string& trouble);
 
 } // namespace scree

@@ -53,23 +53,27 @@ TileOverlap largest_tile_overlap(const PackingTile& tile, size_t variant)
             // Each pair once: from the smaller sphere's level, or within a level from the lower row.
             for (size_t level = cells.level_of(i); level < cells.level_count(); ++level) {
                 const bool own = level == cells.level_of(i);
-                const double margin = std::clamp(-most.overlap, 0.0, 1.0) * std::max(radius[i], own ? cells.level_radius(level) : 0.0);
+                const double margin =
+                    std::clamp(-most.overlap, 0.0, 1.0) * std::max(radius[i], own ? cells.level_radius(level) : 0.0);
                 int hits = 0;
-                cells.visit_near(level, place[i], radius[i] + cells.level_radius(level) + margin, [&](uint32_t j, int x, int y, int z) {
-                    if (own && (j < i || (j == i && x == 0 && y == 0 && z == 0))) return true;
-                    const Imath::V3d d = place[j] + Imath::V3d(x * size.x, y * size.y, z * size.z) - place[i];
-                    const double least = std::min(radius[i], radius[j]), sum = radius[i] + radius[j];
-                    const double reach = sum + std::clamp(-most.overlap, 0.0, 1.0) * least;
-                    if (d.length2() > reach * reach) return true;
-                    take_larger(most, {(sum - d.length()) / least, {std::min(i, j), std::max(i, j)}});
-                    // Only in what is no packing at all (wrong radii?) does a sphere overlap so many; not all pairs need be seen then.
-                    return ++hits < 200;
-                });
+                cells.visit_near(level, place[i], radius[i] + cells.level_radius(level) + margin,
+                                 [&](uint32_t j, int x, int y, int z) {
+                                     if (own && (j < i || (j == i && x == 0 && y == 0 && z == 0))) return true;
+                                     const Imath::V3d d =
+                                         place[j] + Imath::V3d(x * size.x, y * size.y, z * size.z) - place[i];
+                                     const double least = std::min(radius[i], radius[j]), sum = radius[i] + radius[j];
+                                     const double reach = sum + std::clamp(-most.overlap, 0.0, 1.0) * least;
+                                     if (d.length2() > reach * reach) return true;
+                                     take_larger(most, {(sum - d.length()) / least, {std::min(i, j), std::max(i, j)}});
+                                     // Only in what is no packing at all (wrong radii?) does a sphere overlap so many;
+                                     // not all pairs need be seen then.
+                                     return ++hits < 200;
+                                 });
             }
         return most;
     };
-    TileOverlap most = tbb::parallel_reduce(tbb::blocked_range<uint32_t>(0, static_cast<uint32_t>(tile.rows()), 256), start, look,
-                                            [](TileOverlap a, const TileOverlap& b) {
+    TileOverlap most = tbb::parallel_reduce(tbb::blocked_range<uint32_t>(0, static_cast<uint32_t>(tile.rows()), 256),
+                                            start, look, [](TileOverlap a, const TileOverlap& b) {
                                                 take_larger(a, b);
                                                 return a;
                                             });

@@ -14,7 +14,8 @@ TileCells::TileCells(const Imath::V3d& size, std::span<const double> radii, doub
     : level_of_(radii.size()), next_(radii.size(), none), previous_(radii.size(), none), cell_(radii.size(), 0)
 {
     if (radii.size() >= (uint64_t{1} << 27))
-        throw InputError("tile", fmt::format("{} spheres", radii.size()), "fewer than 2^27", "a tile repeats without end: thousands do");
+        throw InputError("tile", fmt::format("{} spheres", radii.size()), "fewer than 2^27",
+                         "a tile repeats without end: thousands do");
     if (radii.empty()) return;
     const double largest = *std::ranges::max_element(radii);
     // Not exactly halves of the largest: sizes are often given from R to 2 R, and those should share a level.
@@ -56,8 +57,11 @@ uint64_t TileCells::cell_of(uint32_t sphere, const Imath::V3d& place) const
     const Level& level = levels_[level_of_[sphere]];
     uint64_t c[3];
     for (int axis = 0; axis < 3; ++axis)
-        c[axis] = static_cast<uint64_t>(std::clamp(static_cast<int64_t>(std::floor(place[axis] * level.cells_per_length[axis])), int64_t{0}, level.cells[axis] - 1));
-    return level.first + (c[2] * static_cast<uint64_t>(level.cells[1]) + c[1]) * static_cast<uint64_t>(level.cells[0]) + c[0];
+        c[axis] = static_cast<uint64_t>(
+            std::clamp(static_cast<int64_t>(std::floor(place[axis] * level.cells_per_length[axis])), int64_t{0},
+                       level.cells[axis] - 1));
+    return level.first + (c[2] * static_cast<uint64_t>(level.cells[1]) + c[1]) * static_cast<uint64_t>(level.cells[0]) +
+           c[0];
 }
 
 void TileCells::insert(uint32_t sphere, uint64_t cell)
@@ -72,7 +76,8 @@ void TileCells::insert(uint32_t sphere, uint64_t cell)
 void TileCells::fill(std::span<const Imath::V3d> places)
 {
     std::ranges::fill(heads_, none);
-    for (size_t i = places.size(); i-- > 0;) insert(static_cast<uint32_t>(i), cell_of(static_cast<uint32_t>(i), places[i]));
+    for (size_t i = places.size(); i-- > 0;)
+        insert(static_cast<uint32_t>(i), cell_of(static_cast<uint32_t>(i), places[i]));
 }
 
 void TileCells::move(uint32_t sphere, const Imath::V3d& place)

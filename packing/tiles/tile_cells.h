@@ -11,9 +11,9 @@ namespace scree {
 
 /// Finds the spheres near a place in a periodic cuboid, while spheres move.
 ///
-/// A level for every factor of two of the radius; a level is a periodic grid of cells at least as wide as its largest diameter, each
-/// with a linked list of its spheres. So the cost does not depend on the range of radii. (ingest/sphere_grid.h is its like for
-/// spheres at rest in open space.)
+/// A level for every factor of two of the radius; a level is a periodic grid of cells at least as wide as its largest
+/// diameter, each with a linked list of its spheres. So the cost does not depend on the range of radii.
+/// (ingest/sphere_grid.h is its like for spheres at rest in open space.)
 class TileCells {
 public:
     static constexpr uint32_t none = 0xffffffffu;
@@ -31,16 +31,18 @@ public:
     /// Largest radius of the level; levels go from small to large.
     double level_radius(size_t level) const { return levels_[level].radius; }
 
-    /// Calls visit(sphere, x, y, z) for every sphere of the level with an image within `reach` of the place along each axis, and for
-    /// some others; x, y, z: the image's shift in edges of the cuboid, once for each such image. place: 0 <= x < size. Stops and
-    /// returns false when visit does.
-    template <class Visit> bool visit_near(size_t level, const Imath::V3d& place, double reach, const Visit& visit) const
+    /// Calls visit(sphere, x, y, z) for every sphere of the level with an image within `reach` of the place along each
+    /// axis, and for some others; x, y, z: the image's shift in edges of the cuboid, once for each such image. place: 0
+    /// <= x < size. Stops and returns false when visit does.
+    template <class Visit>
+    bool visit_near(size_t level, const Imath::V3d& place, double reach, const Visit& visit) const
     {
         const Level& grid = levels_[level];
         // A little more, so that rounding in the cells' coordinates can hide no sphere.
         int64_t lo[3], hi[3];
         for (int axis = 0; axis < 3; ++axis) {
-            const double p = place[axis] * grid.cells_per_length[axis], r = reach * grid.cells_per_length[axis] * (1 + 1e-12) + 1e-9;
+            const double p = place[axis] * grid.cells_per_length[axis],
+                         r = reach * grid.cells_per_length[axis] * (1 + 1e-12) + 1e-9;
             lo[axis] = static_cast<int64_t>(std::floor(p - r));
             hi[axis] = static_cast<int64_t>(std::floor(p + r));
         }
@@ -48,8 +50,10 @@ public:
         for (int64_t k = lo[2]; k <= hi[2]; ++k, z.advance(grid.cells[2])) {
             Cursor y(lo[1], grid.cells[1]);
             for (int64_t j = lo[1]; j <= hi[1]; ++j, y.advance(grid.cells[1])) {
-                const uint64_t row = grid.first + (static_cast<uint64_t>(z.cell) * static_cast<uint64_t>(grid.cells[1]) +
-                                                   static_cast<uint64_t>(y.cell)) * static_cast<uint64_t>(grid.cells[0]);
+                const uint64_t row =
+                    grid.first + (static_cast<uint64_t>(z.cell) * static_cast<uint64_t>(grid.cells[1]) +
+                                  static_cast<uint64_t>(y.cell)) *
+                                     static_cast<uint64_t>(grid.cells[0]);
                 Cursor x(lo[0], grid.cells[0]);
                 for (int64_t i = lo[0]; i <= hi[0]; ++i, x.advance(grid.cells[0]))
                     for (uint32_t s = heads_[row + static_cast<uint64_t>(x.cell)]; s != none; s = next_[s])

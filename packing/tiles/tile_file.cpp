@@ -33,10 +33,14 @@ Imath::V3d cuboid_of(const ParticleFrame& frame, const std::string& place)
             const double x = box.edges[static_cast<size_t>(a)][b];
             if (a == b) size[a] = x;
             if (a == b ? !(x > 0 && std::isfinite(x)) : x != 0)
-                throw InputError(place, fmt::format("a box of edges {}, {}, {}", text_of(box.edges[0]), text_of(box.edges[1]), text_of(box.edges[2])), expected, hint);
+                throw InputError(place,
+                                 fmt::format("a box of edges {}, {}, {}", text_of(box.edges[0]), text_of(box.edges[1]),
+                                             text_of(box.edges[2])),
+                                 expected, hint);
         }
     for (size_t axis = 0; axis < 3; ++axis)
-        if (!box.periodic[axis]) throw InputError(place, fmt::format("a box that is not periodic along {}", "xyz"[axis]), expected, hint);
+        if (!box.periodic[axis])
+            throw InputError(place, fmt::format("a box that is not periodic along {}", "xyz"[axis]), expected, hint);
     return size;
 }
 
@@ -45,26 +49,35 @@ double reach_out(const PackingTile& tile, size_t variant, uint64_t row)
 {
     const Imath::V3d& p = tile.variants[variant][row];
     double out = -tile.size.x;
-    for (int axis = 0; axis < 3; ++axis) out = std::max({out, tile.radius[row] - p[axis], p[axis] + tile.radius[row] - tile.size[axis]});
+    for (int axis = 0; axis < 3; ++axis)
+        out = std::max({out, tile.radius[row] - p[axis], p[axis] + tile.radius[row] - tile.size[axis]});
     return out;
 }
 
 [[noreturn]] void fail_variant(const std::string& place, size_t variant, uint64_t row, const std::string& what)
 {
     throw InputError(place, fmt::format("{}: sphere {} {}", variant_name(variant), row, what),
-                     "variants with the same spheres, of which those that reach through a face of the cuboid are the first rows and have the same place in each");
+                     "variants with the same spheres, of which those that reach through a face of the cuboid are the "
+                     "first rows and have the same place in each");
 }
 
 /// Variants are the same rows with the same radii and types.
 void check_same_rows(const ParticleFrame& first, const ParticleFrame& other, size_t variant, const std::string& place)
 {
     if (other.size() != first.size())
-        throw InputError(place, fmt::format("{} with {} spheres beside {} in points", variant_name(variant), other.size(), first.size()), "the same spheres in every variant");
+        throw InputError(
+            place,
+            fmt::format("{} with {} spheres beside {} in points", variant_name(variant), other.size(), first.size()),
+            "the same spheres in every variant");
     for (uint64_t row = 0; row < first.size(); ++row) {
-        if (other.id[row] != first.id[row]) fail_variant(place, variant, row, fmt::format("has id {} and in points {}", other.id[row], first.id[row]));
+        if (other.id[row] != first.id[row])
+            fail_variant(place, variant, row, fmt::format("has id {} and in points {}", other.id[row], first.id[row]));
         if (other.radius[row] != first.radius[row])
-            fail_variant(place, variant, row, fmt::format("has radius {} and in points {}", other.radius[row], first.radius[row]));
-        if (other.type[row] != first.type[row]) fail_variant(place, variant, row, fmt::format("has type {} and in points {}", other.type[row], first.type[row]));
+            fail_variant(place, variant, row,
+                         fmt::format("has radius {} and in points {}", other.radius[row], first.radius[row]));
+        if (other.type[row] != first.type[row])
+            fail_variant(place, variant, row,
+                         fmt::format("has type {} and in points {}", other.type[row], first.type[row]));
     }
 }
 
@@ -73,14 +86,18 @@ void check_overlaps(const PackingTile& tile, size_t variant, const std::vector<u
     const TileOverlap worst = largest_tile_overlap(tile, variant);
     if (!(worst.overlap > most_overlap)) return;
     const uint64_t a = worst.rows[0], b = worst.rows[1];
-    throw InputError(place,
-                     fmt::format("{}: spheres {} and {} (radius {:.6g} at {}, {:.6g} at {}) overlap by {:.3g} of the smaller radius", variant_name(variant), ids[a],
-                                 a == b ? "its own image" : std::to_string(ids[b]), tile.radius[a], text_of(tile.variants[variant][a]), tile.radius[b],
-                                 text_of(tile.variants[variant][b]), worst.overlap),
-                     "whole spheres that overlap by at most 1e-6", "scree pack tile --from makes a tile of a simulation's spheres, which overlap");
+    throw InputError(
+        place,
+        fmt::format("{}: spheres {} and {} (radius {:.6g} at {}, {:.6g} at {}) overlap by {:.3g} of the smaller radius",
+                    variant_name(variant), ids[a], a == b ? "its own image" : std::to_string(ids[b]), tile.radius[a],
+                    text_of(tile.variants[variant][a]), tile.radius[b], text_of(tile.variants[variant][b]),
+                    worst.overlap),
+        "whole spheres that overlap by at most 1e-6",
+        "scree pack tile --from makes a tile of a simulation's spheres, which overlap");
 }
 
-/// How many rows have the same place in every variant; with one variant, the rows up to the last that reaches through a face.
+/// How many rows have the same place in every variant; with one variant, the rows up to the last that reaches through a
+/// face.
 uint32_t count_shared(const PackingTile& tile)
 {
     uint64_t shared = tile.rows();
@@ -101,8 +118,11 @@ void check_inside(const PackingTile& tile, const std::string& place)
     for (size_t v = 0; v < tile.variants.size(); ++v)
         for (uint64_t row = tile.shared; row < tile.rows(); ++row)
             if (reach_out(tile, v, row) > most_overlap * tile.radius[row])
-                fail_variant(place, v, row, fmt::format("at {} (radius {:.6g}) reaches through a face but has not the same place in every variant",
-                                                        text_of(tile.variants[v][row]), tile.radius[row]));
+                fail_variant(
+                    place, v, row,
+                    fmt::format(
+                        "at {} (radius {:.6g}) reaches through a face but has not the same place in every variant",
+                        text_of(tile.variants[v][row]), tile.radius[row]));
 }
 
 } // namespace
@@ -120,8 +140,8 @@ ParticleFrame tile_frame(const PackingTile& tile, size_t variant)
     for (int axis = 0; axis < 3; ++axis) box.edges[static_cast<size_t>(axis)][axis] = tile.size[axis];
     box.periodic = {true, true, true};
     frame.box = box;
-    // Not the middle of the spheres: rows of one place must be rounded alike in every variant. At a corner, since OpenVDB stores
-    // eight nodes instead of one around 0.
+    // Not the middle of the spheres: rows of one place must be rounded alike in every variant. At a corner, since
+    // OpenVDB stores eight nodes instead of one around 0.
     frame.origin = Imath::V3d(0);
     return frame;
 }
@@ -145,7 +165,9 @@ PackingTile read_tile(const std::filesystem::path& path)
     tile.radius = first.radius;
     tile.type = first.type;
     for (uint64_t row = 0; row < first.size(); ++row)
-        if (!(first.radius[row] > 0)) throw InputError(place, fmt::format("sphere {} of radius {}", first.id[row], first.radius[row]), "radii above 0");
+        if (!(first.radius[row] > 0))
+            throw InputError(place, fmt::format("sphere {} of radius {}", first.id[row], first.radius[row]),
+                             "radii above 0");
     const auto add = [&](const ParticleFrame& frame) {
         auto& places = tile.variants.emplace_back();
         for (const Imath::V3d& p : frame.position) places.push_back(wrapped_into(p - frame.box->lo, tile.size));
@@ -155,7 +177,8 @@ PackingTile read_tile(const std::filesystem::path& path)
     for (size_t v = 1; has(variant_name(v)); ++v) {
         const ParticleFrame other = read_vdb_points(path, variant_name(v));
         check_same_rows(first, other, v, place);
-        if (cuboid_of(other, place) != tile.size) throw InputError(place, variant_name(v) + " with a box of its own", "the same box for every variant");
+        if (cuboid_of(other, place) != tile.size)
+            throw InputError(place, variant_name(v) + " with a box of its own", "the same box for every variant");
         add(other);
     }
     tile.shared = count_shared(tile);

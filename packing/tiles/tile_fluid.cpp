@@ -18,8 +18,9 @@ constexpr double spacings = 2;
 class Fluid {
 public:
     Fluid(TileSpheres& spheres, uint64_t fixed, uint64_t seed)
-        : spheres_(spheres), fixed_(fixed), cells_(spheres.size, spheres.radius), random_(seed, 0x666c756964), gap_(storage_gap(spheres)), travel_(spheres.count(), Imath::V3d(0)),
-          steps_(cells_.level_count()), tried_(cells_.level_count()), moved_(cells_.level_count())
+        : spheres_(spheres), fixed_(fixed), cells_(spheres.size, spheres.radius), random_(seed, 0x666c756964),
+          gap_(storage_gap(spheres)), travel_(spheres.count(), Imath::V3d(0)), steps_(cells_.level_count()),
+          tried_(cells_.level_count()), moved_(cells_.level_count())
     {
         cells_.fill(spheres.place);
         const double volume = spheres.size.x * spheres.size.y * spheres.size.z;
@@ -83,12 +84,13 @@ private:
         }
         const Imath::V3d& size = spheres_.size;
         for (size_t level = 0; level < cells_.level_count(); ++level) {
-            const bool free = cells_.visit_near(level, to, r + cells_.level_radius(level) + gap_, [&](uint32_t j, int x, int y, int z) {
-                if (j == i) return true;
-                const Imath::V3d d = spheres_.place[j] + Imath::V3d(x * size.x, y * size.y, z * size.z) - to;
-                const double least = r + spheres_.radius[j] + gap_;
-                return d.length2() >= least * least;
-            });
+            const bool free = cells_.visit_near(
+                level, to, r + cells_.level_radius(level) + gap_, [&](uint32_t j, int x, int y, int z) {
+                    if (j == i) return true;
+                    const Imath::V3d d = spheres_.place[j] + Imath::V3d(x * size.x, y * size.y, z * size.z) - to;
+                    const double least = r + spheres_.radius[j] + gap_;
+                    return d.length2() >= least * least;
+                });
             if (!free) return false;
         }
         spheres_.place[i] = to;
@@ -108,7 +110,8 @@ private:
 
 } // namespace
 
-FluidRun equilibrate_spheres(TileSpheres& spheres, uint64_t fixed, std::optional<uint64_t> sweeps, uint64_t seed, const TileStep& step, const Progress& progress)
+FluidRun equilibrate_spheres(TileSpheres& spheres, uint64_t fixed, std::optional<uint64_t> sweeps, uint64_t seed,
+                             const TileStep& step, const Progress& progress)
 {
     FluidRun run;
     if (fixed == spheres.count() || sweeps == 0) return run;
@@ -120,8 +123,10 @@ FluidRun equilibrate_spheres(TileSpheres& spheres, uint64_t fixed, std::optional
         const uint64_t count = run.sweeps + 1;
         const double travelled = fluid.displacement() / (spacings * fluid.spacing());
         // A random walk: the way goes with the square root of the sweeps.
-        const double part = sweeps ? static_cast<double>(count) / static_cast<double>(*sweeps)
-                                   : std::max(std::min(travelled * travelled, static_cast<double>(count) / least_sweeps), static_cast<double>(count) / most_sweeps);
+        const double part = sweeps
+                                ? static_cast<double>(count) / static_cast<double>(*sweeps)
+                                : std::max(std::min(travelled * travelled, static_cast<double>(count) / least_sweeps),
+                                           static_cast<double>(count) / most_sweeps);
         step(std::min(part, 1.0));
         done = part >= 1;
     }

@@ -18,8 +18,8 @@ namespace {
 
 constexpr uint64_t place_stream = 0x706c616365;
 constexpr uint64_t tries = 3;
-// Compression goes to this much above the fraction of random close packing: spheres pressed together that far find closer packings
-// when they are let go than spheres that jam at first touch do (0.645 against 0.639 of the space).
+// Compression goes to this much above the fraction of random close packing: spheres pressed together that far find
+// closer packings when they are let go than spheres that jam at first touch do (0.645 against 0.639 of the space).
 constexpr double overfull = 1.25;
 const std::string command = "scree pack tile";
 
@@ -47,23 +47,31 @@ void check_options(uint64_t count, const TileOptions& options)
     if (count == 0) throw InputError(command, "no spheres", "1 sphere or more", "--spheres 10000");
     for (int axis = 0; axis < 3; ++axis)
         if (!(options.size[axis] > 0) || !std::isfinite(options.size[axis]))
-            throw InputError(command, fmt::format("a cuboid of {} x {} x {}", options.size.x, options.size.y, options.size.z), "edges above 0", "--size 1x1x1");
+            throw InputError(command,
+                             fmt::format("a cuboid of {} x {} x {}", options.size.x, options.size.y, options.size.z),
+                             "edges above 0", "--size 1x1x1");
     if (options.fraction && !(*options.fraction > 0 && *options.fraction < 1))
-        throw InputError(command, fmt::format("--fraction {}", *options.fraction), "above 0 and below 1, or max", "equal spheres reach about 0.64 without order");
+        throw InputError(command, fmt::format("--fraction {}", *options.fraction), "above 0 and below 1, or max",
+                         "equal spheres reach about 0.64 without order");
     if (options.variants == 0) throw InputError(command, "--variants 0", "1 variant or more");
 }
 
 /// Spheres must be well smaller than the cuboid, so that none meets itself and no two meet twice.
 void check_room(const TileSpheres& spheres)
 {
-    const double largest = 2 * spheres.largest_radius(), shortest = std::min({spheres.size.x, spheres.size.y, spheres.size.z});
+    const double largest = 2 * spheres.largest_radius(),
+                 shortest = std::min({spheres.size.x, spheres.size.y, spheres.size.z});
     if (1.5 * largest < shortest) return;
-    throw InputError(command, fmt::format("a sphere of diameter {:.4g} in a cuboid whose shortest edge is {:.4g}", largest, shortest), "room for at least 1.5 of the largest diameter",
-                     "more spheres, a narrower range of radii, or edges that differ less");
+    throw InputError(
+        command,
+        fmt::format("a sphere of diameter {:.4g} in a cuboid whose shortest edge is {:.4g}", largest, shortest),
+        "room for at least 1.5 of the largest diameter",
+        "more spheres, a narrower range of radii, or edges that differ less");
 }
 
 /// Packs variant 0. Throws InputError when it jams before the fraction.
-void pack_first(TileSpheres& spheres, const TileOptions& options, bool fluid, MadeTile& made, const TileStep& step, const Progress& progress)
+void pack_first(TileSpheres& spheres, const TileOptions& options, bool fluid, MadeTile& made, const TileStep& step,
+                const Progress& progress)
 {
     const double densest = overfull * random_close_packing(spheres.radius);
     double best = 0;
@@ -84,7 +92,9 @@ void pack_first(TileSpheres& spheres, const TileOptions& options, bool fluid, Ma
         }
         best = std::max(best, scale);
     }
-    throw InputError(command, fmt::format("--fraction {}", *options.fraction), fmt::format("a fraction these spheres reach: at most {:.4f} in {} tries", spheres.fraction() * std::pow(best, 3), tries),
+    throw InputError(command, fmt::format("--fraction {}", *options.fraction),
+                     fmt::format("a fraction these spheres reach: at most {:.4f} in {} tries",
+                                 spheres.fraction() * std::pow(best, 3), tries),
                      "--fraction max packs them until they jam");
 }
 
@@ -97,25 +107,36 @@ float rounded_down(double radius)
 
 /// From a periodic packing to the tile: rows in order, variants, radii. types: by row of the packing, or empty.
 /// goal: the scale of the radii that is enough, or nothing: as large as it gets. may_shrink: whether less will do.
-void finish(TileSpheres spheres, const std::vector<int32_t>& types, std::optional<double> goal, bool may_shrink, const TileOptions& options, MadeTile& made, TileProgress& shown, const Progress& progress)
+void finish(TileSpheres spheres, const std::vector<int32_t>& types, std::optional<double> goal, bool may_shrink,
+            const TileOptions& options, MadeTile& made, TileProgress& shown, const Progress& progress)
 {
     std::vector<uint64_t> order;
     const uint64_t shared = order_by_faces(spheres, order);
     TileVariants variants{{spheres.place}, 1};
     if (options.variants > 1) {
         if (shared == spheres.count())
-            throw InputError(command, fmt::format("{} variants of {} spheres, none of which is wholly inside the cuboid", options.variants, spheres.count()), "spheres that can differ between the variants",
-                             "more spheres, or --variants 1");
+            throw InputError(command,
+                             fmt::format("{} variants of {} spheres, none of which is wholly inside the cuboid",
+                                         options.variants, spheres.count()),
+                             "spheres that can differ between the variants", "more spheres, or --variants 1");
         if (made.fluid) {
-            variants = equilibrate_variants(spheres, shared, options.variants, options.sweeps, options.seed, [&](uint32_t v, double part) { shown.update(v, part); }, progress);
+            variants = equilibrate_variants(
+                spheres, shared, options.variants, options.sweeps, options.seed,
+                [&](uint32_t v, double part) { shown.update(v, part); }, progress);
         } else {
-            variants = pack_variants(spheres, shared, options.variants, goal, options.seed, [&](double part) {
-                for (uint32_t v = 1; v < options.variants; ++v) shown.update(v, part);
-            }, progress);
+            variants = pack_variants(
+                spheres, shared, options.variants, goal, options.seed,
+                [&](double part) {
+                    for (uint32_t v = 1; v < options.variants; ++v) shown.update(v, part);
+                },
+                progress);
         }
         if (variants.scale < 1 && !may_shrink)
-            throw InputError(command, fmt::format("{} variants at fraction {:.6g}", options.variants, spheres.fraction()),
-                             fmt::format("a fraction that variants with the same boundary spheres reach: {:.4f}", spheres.fraction() * std::pow(variants.scale, 3)), "a lower --fraction, --fraction max, or --variants 1");
+            throw InputError(command,
+                             fmt::format("{} variants at fraction {:.6g}", options.variants, spheres.fraction()),
+                             fmt::format("a fraction that variants with the same boundary spheres reach: {:.4f}",
+                                         spheres.fraction() * std::pow(variants.scale, 3)),
+                             "a lower --fraction, --fraction max, or --variants 1");
     }
     PackingTile& tile = made.tile;
     tile.size = spheres.size;
@@ -141,17 +162,21 @@ MadeTile make_tile(std::span<const double> radii, const TileOptions& options, co
     check_room(spheres);
 
     MadeTile made;
-    made.fluid = options.fraction && (options.sweeps ? *options.sweeps > 0 : *options.fraction <= TileOptions::densest_fluid);
+    made.fluid =
+        options.fraction && (options.sweeps ? *options.sweeps > 0 : *options.fraction <= TileOptions::densest_fluid);
     TileProgress shown(options.variants, progress);
     const double before = spheres.radius[0];
-    pack_first(spheres, options, made.fluid, made, [&](double part) { shown.update(0, part); }, progress);
+    pack_first(
+        spheres, options, made.fluid, made, [&](double part) { shown.update(0, part); }, progress);
     shown.update(0, 1);
     made.radius_scale = scale * spheres.radius[0] / before;
-    finish(std::move(spheres), {}, options.fraction ? std::optional<double>(1) : std::nullopt, !options.fraction, options, made, shown, progress);
+    finish(std::move(spheres), {}, options.fraction ? std::optional<double>(1) : std::nullopt, !options.fraction,
+           options, made, shown, progress);
     return made;
 }
 
-MadeTile tile_from_frame(const ParticleFrame& frame, const std::string& place, const TileOptions& options, const Progress& progress)
+MadeTile tile_from_frame(const ParticleFrame& frame, const std::string& place, const TileOptions& options,
+                         const Progress& progress)
 {
     const std::string hint = "--region x0,x1,y0,y1,z0,z1 cuts a cuboid out of any frame and makes it periodic";
     if (frame.size() == 0) throw InputError(place, "a frame without particles", "spheres");
@@ -160,24 +185,34 @@ MadeTile tile_from_frame(const ParticleFrame& frame, const std::string& place, c
     TileSpheres spheres;
     for (int axis = 0; axis < 3; ++axis) {
         const Imath::V3d& edge = box.edges[static_cast<size_t>(axis)];
-        if (!box.periodic[static_cast<size_t>(axis)]) throw InputError(place, fmt::format("a box that is not periodic along {}", "xyz"[axis]), "a box that is periodic along x, y and z", hint);
+        if (!box.periodic[static_cast<size_t>(axis)])
+            throw InputError(place, fmt::format("a box that is not periodic along {}", "xyz"[axis]),
+                             "a box that is periodic along x, y and z", hint);
         for (int other = 0; other < 3; ++other)
-            if (other != axis && edge[other] != 0) throw InputError(place, "a triclinic box", "a cuboid: edges along x, y and z", hint);
-        if (!(edge[axis] > 0) || !std::isfinite(edge[axis])) throw InputError(place, fmt::format("a box of length {} along {}", edge[axis], "xyz"[axis]), "a box with a volume");
+            if (other != axis && edge[other] != 0)
+                throw InputError(place, "a triclinic box", "a cuboid: edges along x, y and z", hint);
+        if (!(edge[axis] > 0) || !std::isfinite(edge[axis]))
+            throw InputError(place, fmt::format("a box of length {} along {}", edge[axis], "xyz"[axis]),
+                             "a box with a volume");
         spheres.size[axis] = edge[axis];
     }
     for (size_t i = 0; i < frame.size(); ++i) {
-        if (!(frame.radius[i] > 0)) throw InputError(place, fmt::format("radius {} of particle {}", frame.radius[i], frame.id[i]), "radii above 0", "--radius gives radii where a dump has none");
+        if (!(frame.radius[i] > 0))
+            throw InputError(place, fmt::format("radius {} of particle {}", frame.radius[i], frame.id[i]),
+                             "radii above 0", "--radius gives radii where a dump has none");
         spheres.radius.push_back(frame.radius[i]);
         spheres.place.push_back(wrapped_into(frame.position[i] - box.lo, spheres.size));
     }
     check_room(spheres);
-    if (!(spheres.fraction() < 1)) throw InputError(place, fmt::format("spheres of {:.4g} times the volume of the box", spheres.fraction()), "less than its volume", "wrong radii?");
+    if (!(spheres.fraction() < 1))
+        throw InputError(place, fmt::format("spheres of {:.4g} times the volume of the box", spheres.fraction()),
+                         "less than its volume", "wrong radii?");
 
     MadeTile made;
     TileProgress shown(options.variants, progress);
     const std::vector<Imath::V3d> before = spheres.place;
-    made.radius_scale = settle_spheres(spheres, 1, [&](double part) { shown.update(0, part); }, progress);
+    made.radius_scale = settle_spheres(
+        spheres, 1, [&](double part) { shown.update(0, part); }, progress);
     shown.update(0, 1);
     const bool jammed = made.radius_scale < 1;
     for (double& r : spheres.radius) r *= made.radius_scale;
@@ -194,14 +229,17 @@ MadeTile tile_from_frame(const ParticleFrame& frame, const std::string& place, c
     return made;
 }
 
-ParticleFrame cut_cuboid(const ParticleFrame& frame, const Imath::V3d& lo, const Imath::V3d& hi, const std::string& place)
+ParticleFrame cut_cuboid(const ParticleFrame& frame, const Imath::V3d& lo, const Imath::V3d& hi,
+                         const std::string& place)
 {
     ParticleFrame cut;
     SimulationBox box;
     box.lo = lo;
     box.periodic = {true, true, true};
     for (int axis = 0; axis < 3; ++axis) {
-        if (!(lo[axis] < hi[axis])) throw InputError("--region", fmt::format("{} to {} along {}", lo[axis], hi[axis], "xyz"[axis]), "x0,x1,y0,y1,z0,z1, each from low to high");
+        if (!(lo[axis] < hi[axis]))
+            throw InputError("--region", fmt::format("{} to {} along {}", lo[axis], hi[axis], "xyz"[axis]),
+                             "x0,x1,y0,y1,z0,z1, each from low to high");
         box.edges[static_cast<size_t>(axis)][axis] = hi[axis] - lo[axis];
     }
     cut.box = box;

@@ -11,14 +11,14 @@ namespace {
 
 using Outcome = TileRelaxation::Outcome;
 
-// The net force over the mean force of contacts at which forces balance. Looser takes fewer steps, but the packings jam earlier: by
-// 0.004 of the space at 3e-2. Below a mean overlap of `settled` no sphere changes its neighbours any more, and 5e-2 gives the same packing
-// (to 1e-4 of the space) in half the steps.
+// The net force over the mean force of contacts at which forces balance. Looser takes fewer steps, but the packings jam
+// earlier: by 0.004 of the space at 3e-2. Below a mean overlap of `settled` no sphere changes its neighbours any more,
+// and 5e-2 gives the same packing (to 1e-4 of the space) in half the steps.
 constexpr double balance = 1e-2, settled = 1e-3;
 // Overlaps, as part of the sum of radii.
-constexpr double hair = 2e-5;         // how much larger radii are while spheres are moved apart
+constexpr double hair = 2e-5; // how much larger radii are while spheres are moved apart
 constexpr double close_enough = 1e-5; // worst overlap at which decompression ends
-constexpr double rough = 8e-2;        // the same before spheres are compressed again
+constexpr double rough = 8e-2; // the same before spheres are compressed again
 
 /// How far decompression has come: by the logarithm of the overlap, from 0.3 down.
 double progress_of(double worst_overlap)
@@ -30,7 +30,7 @@ double progress_of(double worst_overlap)
 double decompress(TileRelaxation& soft, double scale, double enough, const TileStep& step, const Progress& progress)
 {
     double above = 0, overlap_above = 0; // the state before
-    double below = 0;                    // where no overlap was left
+    double below = 0; // where no overlap was left
     for (int stages = 0; stages < 40; ++stages) {
         const TileRelaxation::State& state = soft.state();
         step(progress_of(state.worst_overlap));
@@ -42,8 +42,12 @@ double decompress(TileRelaxation& soft, double scale, double enough, const TileS
         if (next <= below) next = (scale + below) / 2;
         above = scale;
         overlap_above = overlap;
-        while (soft.relax(next, {.allowed = close_enough / 20, .balance = overlap < settled ? 5 * balance : balance, .max_steps = 4000}, progress) == Outcome::separated &&
-               scale - next > close_enough * scale) {
+        while (
+            soft.relax(
+                next,
+                {.allowed = close_enough / 20, .balance = overlap < settled ? 5 * balance : balance, .max_steps = 4000},
+                progress) == Outcome::separated &&
+            scale - next > close_enough * scale) {
             below = next;
             next = (scale + next) / 2;
         }
@@ -56,7 +60,8 @@ double decompress(TileRelaxation& soft, double scale, double enough, const TileS
 
 double storage_gap(const TileSpheres& spheres)
 {
-    // Files keep places to 2^-26 of a voxel of four mean radii along each axis (vdb_points.h); of two spheres and in three axes.
+    // Files keep places to 2^-26 of a voxel of four mean radii along each axis (vdb_points.h); of two spheres and in
+    // three axes.
     return 5e-7 * spheres.mean_radius();
 }
 
@@ -82,8 +87,12 @@ double jam_spheres(TileSpheres& spheres, double overfull, int rounds, const Tile
     double compressed = cube_root(overfull / spheres.fraction()), scale = compressed;
     for (int round = 0; round < rounds; ++round) {
         const bool last = round + 1 == rounds;
-        while (soft.relax(compressed, {.allowed = close_enough, .balance = balance, .max_steps = 4000}, progress) == Outcome::separated) compressed *= 1.02;
-        scale = decompress(soft, compressed, last ? close_enough : rough, [&](double part) { step((round + part) / rounds); }, progress);
+        while (soft.relax(compressed, {.allowed = close_enough, .balance = balance, .max_steps = 4000}, progress) ==
+               Outcome::separated)
+            compressed *= 1.02;
+        scale = decompress(
+            soft, compressed, last ? close_enough : rough, [&](double part) { step((round + part) / rounds); },
+            progress);
     }
     spheres.place = soft.places();
     return fitting_scale(spheres, storage_gap(spheres), scale).scale;

@@ -63,15 +63,13 @@ struct TileRelaxation::Sums {
 };
 
 TileRelaxation::TileRelaxation(const TileSpheres& spheres)
-    : size_(spheres.size), mean_radius_(spheres.mean_radius()), skin_(widest_skin * mean_radius_),
-      row_(spheres.count())
+    : size_(spheres.size), mean_radius_(spheres.mean_radius()), skin_(widest_skin * mean_radius_), row_(spheres.count())
 {
     std::vector<uint32_t> code(spheres.count());
     for (size_t i = 0; i < code.size(); ++i) code[i] = morton(spheres.place[i], size_);
     std::iota(row_.begin(), row_.end(), 0u);
-    std::sort(row_.begin(), row_.end(), [&](uint32_t a, uint32_t b) {
-        return code[a] != code[b] ? code[a] < code[b] : a < b;
-    });
+    std::sort(row_.begin(), row_.end(),
+              [&](uint32_t a, uint32_t b) { return code[a] != code[b] ? code[a] < code[b] : a < b; });
     uint32_t sheets = 1;
     for (const uint32_t row : row_) {
         const Imath::V3d& p = spheres.place[row];
@@ -83,24 +81,27 @@ TileRelaxation::TileRelaxation(const TileSpheres& spheres)
     force_.resize(body_.size());
     listed_.resize(body_.size());
     inverse_mass_.resize(body_.size());
-    // A large sphere has contacts in proportion to its surface, and one of sheet 0 has them in every sheet: with a mass to match, no
-    // mode is much faster than others.
+    // A large sphere has contacts in proportion to its surface, and one of sheet 0 has them in every sheet: with a mass
+    // to match, no mode is much faster than others.
     for (size_t b = 0; b < body_.size(); ++b) {
         const double surface = std::max(1.0, std::pow(body_[b].r / mean_radius_, 2));
         inverse_mass_[b] = 1 / (surface * (sheet_[b] == 0 ? (1.0 + sheets) / 2 : 1.0));
     }
-    for (int s = 0; s < 27; ++s) shifts_[static_cast<size_t>(s)] = {(s % 3 - 1) * size_.x, (s / 3 % 3 - 1) * size_.y, (s / 9 - 1) * size_.z, 0};
+    for (int s = 0; s < 27; ++s)
+        shifts_[static_cast<size_t>(s)] = {(s % 3 - 1) * size_.x, (s / 3 % 3 - 1) * size_.y, (s / 9 - 1) * size_.z, 0};
 }
 
 std::vector<Imath::V3d> TileRelaxation::places() const
 {
     std::vector<Imath::V3d> places(body_.size());
-    for (size_t b = 0; b < body_.size(); ++b) places[row_[b]] = wrapped_into({body_[b].x, body_[b].y, body_[b].z}, size_);
+    for (size_t b = 0; b < body_.size(); ++b)
+        places[row_[b]] = wrapped_into({body_[b].x, body_[b].y, body_[b].z}, size_);
     return places;
 }
 
 /// The bodies of each sheet with cells of their own: of other sheets a body need not even look at the spheres.
-std::vector<TileRelaxation::Sheet> TileRelaxation::sheets_of(const std::vector<double>& radius, const std::vector<Imath::V3d>& place) const
+std::vector<TileRelaxation::Sheet> TileRelaxation::sheets_of(const std::vector<double>& radius,
+                                                             const std::vector<Imath::V3d>& place) const
 {
     std::vector<Sheet> sheets(1 + *std::ranges::max_element(sheet_));
     std::vector<std::vector<double>> radii(sheets.size());
@@ -127,14 +128,17 @@ void TileRelaxation::build_lists(double scale)
         place[b] = {body.x, body.y, body.z};
         // A sphere pushed through a wall must not come back on the other side.
         if (sheet_[b] > 0)
-            for (int axis = 0; axis < 3; ++axis) place[b][axis] = std::clamp(place[b][axis], 0.0, std::nextafter(size_[axis], 0.0));
+            for (int axis = 0; axis < 3; ++axis)
+                place[b][axis] = std::clamp(place[b][axis], 0.0, std::nextafter(size_[axis], 0.0));
         else
             place[b] = wrapped_into(place[b], size_);
         body.x = place[b].x, body.y = place[b].y, body.z = place[b].z;
     }
     const double widest = 2 * *std::ranges::max_element(radius) + skin_;
     if (widest > std::min({size_.x, size_.y, size_.z})) // an image's shift is one edge at most
-        throw InputError("tile", "spheres as wide as the cuboid", "room for well more than one of the largest beside another", "more spheres, or a narrower range of radii");
+        throw InputError("tile", "spheres as wide as the cuboid",
+                         "room for well more than one of the largest beside another",
+                         "more spheres, or a narrower range of radii");
     const std::vector<Sheet> sheets = sheets_of(radius, place);
     const uint64_t blocks = (body_.size() + block - 1) / block;
     std::vector<std::vector<uint32_t>> found(blocks);
@@ -143,14 +147,18 @@ void TileRelaxation::build_lists(double scale)
         std::vector<uint32_t>& out = found[part];
         const auto look = [&](uint64_t b, const Sheet& sheet) {
             for (size_t level = 0; level < sheet.cells->level_count(); ++level)
-                sheet.cells->visit_near(level, place[b], radius[b] + sheet.cells->level_radius(level) + skin_, [&](uint32_t member, int x, int y, int z) {
-                    const uint32_t c = sheet.members[member];
-                    if (c == b) return true; // its own images move with it and push it nowhere
-                    const Imath::V3d d = sheet.place[member] + Imath::V3d(x * size_.x, y * size_.y, z * size_.z) - place[b];
-                    const double reach = radius[b] + radius[c] + skin_;
-                    if (d.length2() < reach * reach) out.push_back(c | static_cast<uint32_t>((x + 1) + 3 * (y + 1) + 9 * (z + 1)) << body_bits);
-                    return true;
-                });
+                sheet.cells->visit_near(
+                    level, place[b], radius[b] + sheet.cells->level_radius(level) + skin_,
+                    [&](uint32_t member, int x, int y, int z) {
+                        const uint32_t c = sheet.members[member];
+                        if (c == b) return true; // its own images move with it and push it nowhere
+                        const Imath::V3d d =
+                            sheet.place[member] + Imath::V3d(x * size_.x, y * size_.y, z * size_.z) - place[b];
+                        const double reach = radius[b] + radius[c] + skin_;
+                        if (d.length2() < reach * reach)
+                            out.push_back(c | static_cast<uint32_t>((x + 1) + 3 * (y + 1) + 9 * (z + 1)) << body_bits);
+                        return true;
+                    });
         };
         for (uint64_t b = part * block; b < std::min<uint64_t>(body_.size(), (part + 1) * block); ++b) {
             const size_t before = out.size();
@@ -163,13 +171,16 @@ void TileRelaxation::build_lists(double scale)
     });
     std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
     neighbours_.resize(starts_.back());
-    tbb::parallel_for(uint64_t{0}, blocks, [&](uint64_t part) { std::ranges::copy(found[part], neighbours_.begin() + static_cast<int64_t>(starts_[part * block])); });
+    tbb::parallel_for(uint64_t{0}, blocks, [&](uint64_t part) {
+        std::ranges::copy(found[part], neighbours_.begin() + static_cast<int64_t>(starts_[part * block]));
+    });
     for (size_t b = 0; b < body_.size(); ++b) listed_[b] = {body_[b].x, body_[b].y, body_[b].z};
 }
 
 TileRelaxation::Sums TileRelaxation::add_forces(double scale, uint64_t begin, uint64_t end)
 {
-    // In passes over arrays, which compilers turn into vector instructions: what is near, how much it overlaps, the sums.
+    // In passes over arrays, which compilers turn into vector instructions: what is near, how much it overlaps, the
+    // sums.
     thread_local std::vector<Body> apart;
     thread_local std::vector<double> overlap, push;
     const uint64_t first = starts_[begin], pairs = starts_[end] - first;
@@ -235,7 +246,8 @@ TileRelaxation::Sums TileRelaxation::all_forces(double scale)
     const uint64_t count = body_.size(), blocks = (count + block - 1) / block;
     std::vector<Sums> parts(blocks);
     tbb::parallel_for(uint64_t{0}, blocks, [&](uint64_t part) { // A chunk's pairs fit the nearest cache.
-        for (uint64_t k = part * block; k < std::min(count, (part + 1) * block); k += chunk) parts[part].add(add_forces(scale, k, std::min(count, k + chunk)));
+        for (uint64_t k = part * block; k < std::min(count, (part + 1) * block); k += chunk)
+            parts[part].add(add_forces(scale, k, std::min(count, k + chunk)));
     });
     Sums sums;
     for (const Sums& part : parts) sums.add(part);
@@ -268,7 +280,8 @@ double TileRelaxation::advance(double dt, double keep, double along, double limi
 TileRelaxation::Outcome TileRelaxation::relax(double scale, const Goal& goal, const Progress& progress)
 {
     std::ranges::fill(velocity_, Vector{});
-    skin_ = mean_radius_ * (state_.steps == 0 ? widest_skin : std::clamp(20 * state_.mean_overlap, narrowest_skin, widest_skin));
+    skin_ = mean_radius_ *
+            (state_.steps == 0 ? widest_skin : std::clamp(20 * state_.mean_overlap, narrowest_skin, widest_skin));
     build_lists(scale);
     uint64_t built = 0;
     double dt = first_dt, alpha = first_alpha;
@@ -281,7 +294,8 @@ TileRelaxation::Outcome TileRelaxation::relax(double scale, const Goal& goal, co
         const double mean_force = sums.contacts > 0 ? sums.overlap_lengths / static_cast<double>(sums.contacts) : 0;
         state_.mean_overlap = mean_force / (2 * scale * mean_radius_);
         if (sums.worst <= goal.allowed) return Outcome::separated;
-        if (std::sqrt(sums.force2 / static_cast<double>(body_.size())) < goal.balance * mean_force) return Outcome::balanced;
+        if (std::sqrt(sums.force2 / static_cast<double>(body_.size())) < goal.balance * mean_force)
+            return Outcome::balanced;
 
         double keep = 1, along = 0;
         if (sums.power > 0) {

@@ -38,7 +38,9 @@ double quantile(const TileSizes& sizes, double u)
         if (std::abs(k) < 1e-9) return std::pow(sizes.ratio, u);
         return std::pow(1 + u * (std::pow(sizes.ratio, k) - 1), 1 / k);
     }
-    case TileSizes::Kind::sample: return sizes.radii[std::min(static_cast<size_t>(u * static_cast<double>(sizes.radii.size())), sizes.radii.size() - 1)];
+    case TileSizes::Kind::sample:
+        return sizes
+            .radii[std::min(static_cast<size_t>(u * static_cast<double>(sizes.radii.size())), sizes.radii.size() - 1)];
     case TileSizes::Kind::equal:
     case TileSizes::Kind::two: break;
     }
@@ -48,16 +50,22 @@ double quantile(const TileSizes& sizes, double u)
 /// The parameters given, held against what the kind has.
 class Parameters {
 public:
-    Parameters(const std::string& kind, std::span<const std::string> words, const std::vector<std::string>& known) : kind_(kind)
+    Parameters(const std::string& kind, std::span<const std::string> words, const std::vector<std::string>& known)
+        : kind_(kind)
     {
         for (const std::string& word : words) {
             const size_t equals = word.find('=');
             const std::string name = word.substr(0, equals);
             if (std::ranges::find(known, name) == known.end())
-                throw InputError(flag, in_quotes(word), known.empty() ? kind + " alone" : fmt::format("for {}: {}", kind, fmt::join(known, "=, ") ) + "=" + did_you_mean(name, known));
-            const auto value = equals == std::string::npos ? std::nullopt : to_double(std::string_view(word).substr(equals + 1));
+                throw InputError(flag, in_quotes(word),
+                                 known.empty() ? kind + " alone"
+                                               : fmt::format("for {}: {}", kind, fmt::join(known, "=, ")) + "=" +
+                                                     did_you_mean(name, known));
+            const auto value =
+                equals == std::string::npos ? std::nullopt : to_double(std::string_view(word).substr(equals + 1));
             if (!value || !std::isfinite(*value)) throw InputError(flag, in_quotes(word), name + "=NUMBER");
-            if (!values_.emplace(name, *value).second) throw InputError(flag, fmt::format("{} twice", name), "each parameter once");
+            if (!values_.emplace(name, *value).second)
+                throw InputError(flag, fmt::format("{} twice", name), "each parameter once");
         }
     }
     bool has(const std::string& name) const { return values_.contains(name); }
@@ -65,7 +73,9 @@ public:
     {
         const auto found = values_.find(name);
         if (found == values_.end()) return otherwise;
-        if (!(found->second >= lo && found->second <= hi)) throw InputError(flag, fmt::format("{} {}={}", kind_, name, found->second), fmt::format("{} from {} to {}", name, lo, hi));
+        if (!(found->second >= lo && found->second <= hi))
+            throw InputError(flag, fmt::format("{} {}={}", kind_, name, found->second),
+                             fmt::format("{} from {} to {}", name, lo, hi));
         return found->second;
     }
 
@@ -97,15 +107,18 @@ TileSizes parse_tile_sizes(const std::vector<std::string>& words)
         const Parameters given(kind, rest, {"exponent", "ratio", "min", "max"});
         sizes.kind = TileSizes::Kind::power;
         sizes.exponent = given.take("exponent", 3, -20, 20);
-        if (given.has("ratio") && (given.has("min") || given.has("max"))) throw InputError(flag, "power with ratio and min or max", "ratio=, or min= and max=");
-        if (given.has("min") != given.has("max")) throw InputError(flag, "power with one of min and max", "both, or ratio=");
+        if (given.has("ratio") && (given.has("min") || given.has("max")))
+            throw InputError(flag, "power with ratio and min or max", "ratio=, or min= and max=");
+        if (given.has("min") != given.has("max"))
+            throw InputError(flag, "power with one of min and max", "both, or ratio=");
         sizes.ratio = given.take("ratio", 10, 1, 100);
         if (given.has("min")) {
             const double min = given.take("min", 1, 1e-300, 1e300);
             sizes.ratio = given.take("max", 1, min, 100 * min) / min;
         }
     } else {
-        throw InputError(flag, kind.empty() ? "nothing" : in_quotes(kind), fmt::format("{}{}", fmt::join(kinds, ", "), did_you_mean(kind, kinds)),
+        throw InputError(flag, kind.empty() ? "nothing" : in_quotes(kind),
+                         fmt::format("{}{}", fmt::join(kinds, ", "), did_you_mean(kind, kinds)),
                          "radii of a simulation: --radii-from DUMP");
     }
     return sizes;
@@ -115,9 +128,11 @@ std::string words_of_sizes(const TileSizes& sizes)
 {
     switch (sizes.kind) {
     case TileSizes::Kind::equal: return "equal radii";
-    case TileSizes::Kind::two: return fmt::format("two radii, ratio {:.6g}, the larger {:.4g} % by number", sizes.ratio, 100 * sizes.share);
+    case TileSizes::Kind::two:
+        return fmt::format("two radii, ratio {:.6g}, the larger {:.4g} % by number", sizes.ratio, 100 * sizes.share);
     case TileSizes::Kind::lognormal: return fmt::format("lognormal radii of sigma {:.6g}", sizes.sigma);
-    case TileSizes::Kind::power: return fmt::format("radii by the power law r^-{:.6g} over a ratio of {:.6g}", sizes.exponent, sizes.ratio);
+    case TileSizes::Kind::power:
+        return fmt::format("radii by the power law r^-{:.6g} over a ratio of {:.6g}", sizes.exponent, sizes.ratio);
     case TileSizes::Kind::sample: return fmt::format("radii as of {} spheres given", sizes.radii.size());
     }
     return "";

@@ -10,18 +10,18 @@ namespace scree {
 /// A distribution of radii, up to their scale, which the fraction decides.
 struct TileSizes {
     enum class Kind {
-        equal,     ///< mono
-        two,       ///< 1 and `ratio`; `share` of the spheres are the larger ones
+        equal, ///< mono
+        two, ///< 1 and `ratio`; `share` of the spheres are the larger ones
         lognormal, ///< log of the radius normal of standard deviation `sigma`
-        power,     ///< number density as r^-exponent from 1 to `ratio`
-        sample     ///< drawn from the radii given
+        power, ///< number density as r^-exponent from 1 to `ratio`
+        sample ///< drawn from the radii given
     } kind = Kind::equal;
     double ratio = 1.4, share = 0.5, sigma = 0.3, exponent = 3;
     std::vector<double> radii; ///< kind sample
 };
 
-/// KIND and its parameters as words: "mono", "bidisperse ratio=1.4 share=0.5", "lognormal sigma=0.3", "power exponent=3 ratio=10" (or
-/// min=, max=). Throws InputError.
+/// KIND and its parameters as words: "mono", "bidisperse ratio=1.4 share=0.5", "lognormal sigma=0.3", "power exponent=3
+/// ratio=10" (or min=, max=). Throws InputError.
 TileSizes parse_tile_sizes(const std::vector<std::string>& words);
 
 /// In words, e.g. "lognormal of sigma 0.3".
@@ -29,12 +29,12 @@ std::string words_of_sizes(const TileSizes& sizes);
 
 /// `count` radii of the distribution, of mean 1 in the sample, in random order.
 ///
-/// Stratified: one radius from each count-th part of the distribution, so that the sample follows it as closely as its number allows (the larger of
-/// two sizes is taken round(share count) times). Deterministic in seed.
+/// Stratified: one radius from each count-th part of the distribution, so that the sample follows it as closely as its
+/// number allows (the larger of two sizes is taken round(share count) times). Deterministic in seed.
 std::vector<double> draw_tile_radii(const TileSizes& sizes, uint64_t count, uint64_t seed);
 
-/// The fraction of random close packing that Desmond and Weeks, PRE 90, 022204 (2014), find for the distribution's polydispersity
-/// (standard deviation over mean) and skewness: 0.634 + 0.0658 delta + 0.0857 S delta^2; at most 0.9.
+/// The fraction of random close packing that Desmond and Weeks, PRE 90, 022204 (2014), find for the distribution's
+/// polydispersity (standard deviation over mean) and skewness: 0.634 + 0.0658 delta + 0.0857 S delta^2; at most 0.9.
 double random_close_packing(std::span<const double> radii);
 
 } // namespace scree

@@ -12,7 +12,10 @@
 
 namespace scree {
 
-double TileSpheres::mean_radius() const { return std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(count()); }
+double TileSpheres::mean_radius() const
+{
+    return std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(count());
+}
 
 double TileSpheres::largest_radius() const { return *std::ranges::max_element(radius); }
 
@@ -68,26 +71,28 @@ FittingScale fitting_scale(const TileSpheres& spheres, double gap, double most)
             // Each pair once: from the smaller sphere's level, or within a level from the lower row.
             for (size_t level = cells.level_of(i); level < cells.level_count(); ++level) {
                 const bool own = level == cells.level_of(i);
-                cells.visit_near(level, p, most * (r + cells.level_radius(level)) + gap, [&](uint32_t j, int x, int y, int z) {
-                    if (own && (j < i || (j == i && x == 0 && y == 0 && z == 0))) return true;
-                    if (!spheres.meet(i, j)) return true;
-                    const Imath::V3d d = spheres.place[j] + Imath::V3d(x * size.x, y * size.y, z * size.z) - p;
-                    const double sum = r + spheres.radius[j], reach = most * sum + gap;
-                    if (d.length2() >= reach * reach) return true;
-                    take_smaller(least, {(d.length() - gap) / sum, {std::min(i, j), std::max(i, j)}});
-                    return true;
-                });
+                cells.visit_near(
+                    level, p, most * (r + cells.level_radius(level)) + gap, [&](uint32_t j, int x, int y, int z) {
+                        if (own && (j < i || (j == i && x == 0 && y == 0 && z == 0))) return true;
+                        if (!spheres.meet(i, j)) return true;
+                        const Imath::V3d d = spheres.place[j] + Imath::V3d(x * size.x, y * size.y, z * size.z) - p;
+                        const double sum = r + spheres.radius[j], reach = most * sum + gap;
+                        if (d.length2() >= reach * reach) return true;
+                        take_smaller(least, {(d.length() - gap) / sum, {std::min(i, j), std::max(i, j)}});
+                        return true;
+                    });
             }
         }
         return least;
     };
     constexpr uint64_t nobody = ~uint64_t{0};
     const FittingScale start{most, {nobody, nobody}};
-    FittingScale least = tbb::parallel_reduce(tbb::blocked_range<uint32_t>(0, static_cast<uint32_t>(spheres.count()), 256), start, look,
-                                              [](FittingScale a, const FittingScale& b) {
-                                                  take_smaller(a, b);
-                                                  return a;
-                                              });
+    FittingScale least =
+        tbb::parallel_reduce(tbb::blocked_range<uint32_t>(0, static_cast<uint32_t>(spheres.count()), 256), start, look,
+                             [](FittingScale a, const FittingScale& b) {
+                                 take_smaller(a, b);
+                                 return a;
+                             });
     if (least.rows[0] == nobody) least.rows[0] = least.rows[1] = 0;
     return least;
 }

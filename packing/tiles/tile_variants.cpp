@@ -16,8 +16,8 @@ namespace {
 constexpr uint64_t variant_stream = 0x76617269616e74;
 // How near a face counts as touching it, in radii.
 constexpr double nearly = 1e-5;
-// Compressions, and how far beyond the fraction of the first packing. With 5,000 equal spheres in 4 variants, jammed at 0.644 in the
-// first, one compression gave 0.632, two 0.633 and three 0.634.
+// Compressions, and how far beyond the fraction of the first packing. With 5,000 equal spheres in 4 variants, jammed at
+// 0.644 in the first, one compression gave 0.632, two 0.633 and three 0.634.
 constexpr int rounds = 3;
 constexpr double overfull = 1.3;
 
@@ -66,25 +66,28 @@ uint64_t order_by_faces(TileSpheres& spheres, std::vector<uint64_t>& order)
     return order.size() - inner.size();
 }
 
-TileVariants equilibrate_variants(const TileSpheres& spheres, uint64_t shared, uint32_t count, std::optional<uint64_t> sweeps, uint64_t seed,
+TileVariants equilibrate_variants(const TileSpheres& spheres, uint64_t shared, uint32_t count,
+                                  std::optional<uint64_t> sweeps, uint64_t seed,
                                   const std::function<void(uint32_t, double)>& step, const Progress& progress)
 {
     TileVariants result;
     result.places.assign(count, spheres.place);
     tbb::parallel_for(uint32_t{1}, count, [&](uint32_t v) {
         TileSpheres fluid = spheres;
-        equilibrate_spheres(fluid, shared, sweeps, seed_of(v, seed), [&](double part) { step(v, part); }, progress);
+        equilibrate_spheres(
+            fluid, shared, sweeps, seed_of(v, seed), [&](double part) { step(v, part); }, progress);
         result.places[v] = std::move(fluid.place);
     });
     return result;
 }
 
-TileVariants pack_variants(const TileSpheres& spheres, uint64_t shared, uint32_t count, std::optional<double> goal, uint64_t seed, const TileStep& step,
-                           const Progress& progress)
+TileVariants pack_variants(const TileSpheres& spheres, uint64_t shared, uint32_t count, std::optional<double> goal,
+                           uint64_t seed, const TileStep& step, const Progress& progress)
 {
     TileSpheres all = stack_sheets(spheres, shared, count, seed);
     // The fraction of one variant, where the system's counts them all.
-    const double densest = overfull * std::max(spheres.fraction(), random_close_packing(spheres.radius)) * all.fraction() / spheres.fraction();
+    const double densest = overfull * std::max(spheres.fraction(), random_close_packing(spheres.radius)) *
+                           all.fraction() / spheres.fraction();
     TileVariants result;
     result.scale = 0;
     std::vector<Imath::V3d> best;

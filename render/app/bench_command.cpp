@@ -2,13 +2,13 @@
 
 #include "base/console_progress.h"
 #include "base/error.h"
+#include "base/interrupt.h"
+#include "render/app/option_values.h"
+#include "render/app/stress_command.h"
 #include "render/bench/bench_suite.h"
 #include "render/bench/bench_table.h"
 #include "render/bench/bench_words.h"
-#include "render/app/stress_command.h"
 #include "render/bench/suite_run.h"
-#include "base/interrupt.h"
-#include "render/app/option_values.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -38,19 +38,25 @@ void take_over(Arguments& a)
 {
     BenchJob& job = a.job;
     if (a.suite) {
-        if (!job.scene.scene.empty()) throw InputError("scree bench", "a scene and --suite", "one of them", "name the suite's file as --suite=FILE");
+        if (!job.scene.scene.empty())
+            throw InputError("scree bench", "a scene and --suite", "one of them",
+                             "name the suite's file as --suite=FILE");
         if (job.folder.empty()) job.folder = "bench";
         return;
     }
     if (job.scene.scene.empty()) throw InputError("scree bench", "no scene", "a scene file, or --suite");
-    if (job.folder.empty()) throw InputError("--output", "nothing", "a folder for the page, bench.json and the reference");
-    if (a.scale) throw InputError("--suite-scale", "one scene", "--suite, whose times it scales", "the times of one scene are --time and --reference-time");
+    if (job.folder.empty())
+        throw InputError("--output", "nothing", "a folder for the page, bench.json and the reference");
+    if (a.scale)
+        throw InputError("--suite-scale", "one scene", "--suite, whose times it scales",
+                         "the times of one scene are --time and --reference-time");
     if (!a.readme.empty()) throw InputError("--readme", "one scene", "--suite, whose numbers go there");
     job.methods = parse_methods(a.integrators, a.accuracy);
     if (!a.size.empty()) job.scene.size = parse_picture_size(a.size);
     for (const std::string& item : a.overrides) job.scene.overrides.push_back(parse_override(item));
     job.title = job.scene.scene.stem().string();
-    if (job.title == "scene" && job.scene.scene.has_parent_path()) job.title = std::filesystem::absolute(job.scene.scene).parent_path().filename().string();
+    if (job.title == "scene" && job.scene.scene.has_parent_path())
+        job.title = std::filesystem::absolute(job.scene.scene).parent_path().filename().string();
 }
 
 /// What brings the same numbers again.
@@ -78,7 +84,8 @@ void run_work(const Arguments& a, const Progress& progress, ConsoleProgress& con
         text = suite_table(suite);
     } else {
         const BenchResult result = run_and_write(a.job, progress);
-        text = scene_words(result) + "\n" + machine_words(result.machine, result.processor_share()) + "\n" + terminal_table({result});
+        text = scene_words(result) + "\n" + machine_words(result.machine, result.processor_share()) + "\n" +
+               terminal_table({result});
     }
     console.finish();
     fmt::print("{}  page: {}\n", text, (a.job.folder / "index.html").string());
@@ -94,14 +101,17 @@ int run(const Arguments& arguments)
     });
     const InterruptGuard guard(progress);
     std::optional<tbb::global_control> threads;
-    if (job.scene.threads > 0) threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(job.scene.threads));
+    if (job.scene.threads > 0)
+        threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(job.scene.threads));
     try {
         run_work(arguments, progress, console);
     } catch (const Cancelled&) {
         console.finish();
         const std::filesystem::path kept = job.folder / (arguments.suite ? "details" : "reference.exr");
-        const char* what = arguments.suite ? "finished scenes and references, to be gone on with, are in" : "to be gone on with, there is";
-        fmt::print(stderr, "scree: interrupted; pages and numbers are as they were{}\n", std::filesystem::exists(kept) ? fmt::format("; {} {}", what, kept.string()) : "");
+        const char* what = arguments.suite ? "finished scenes and references, to be gone on with, are in"
+                                           : "to be gone on with, there is";
+        fmt::print(stderr, "scree: interrupted; pages and numbers are as they were{}\n",
+                   std::filesystem::exists(kept) ? fmt::format("; {} {}", what, kept.string()) : "");
         return interrupted_status;
     }
     return 0;
@@ -114,26 +124,48 @@ void add_bench_command(CLI::App& app)
     auto arguments = std::make_shared<Arguments>();
     Arguments& a = *arguments;
     BenchJob& job = a.job;
-    CLI::App* command = app.add_subcommand("bench", "Hold the ways to render a scene against each other: time against error");
+    CLI::App* command =
+        app.add_subcommand("bench", "Hold the ways to render a scene against each other: time against error");
     command->add_option("scene", job.scene.scene, "Scene file (JSON)");
-    command->add_option("-o,--output", job.folder, "Folder for the page, bench.json and the reference (with --suite: bench)");
-    command->add_option("--integrators", a.integrators, "Ways to render, separated by commas: of auto, ept, ppt, vpt, stf (default: all)");
-    command->add_option("--accuracy", a.accuracy, "With auto: how far its approximations may go: of reference, high, standard, draft; several make several methods");
-    command->add_option("--time", job.seconds, "Seconds of rendering for each method, on a machine that does nothing else (default 20)")->check(CLI::Range(1e-3, 1e7));
-    command->add_option("--seeds", job.seeds, "Independent pictures of each method (default 4)")->check(CLI::Range(2, 1024));
-    auto* const file = command->add_option("--reference", job.reference, "Picture (EXR) to compare with, in place of rendering one");
-    command->add_option("--reference-time", job.reference_seconds, "Seconds of rendering for the reference, by ept (default 60); one in the folder is gone on with")
-        ->check(CLI::Range(1e-3, 1e7))->excludes(file);
+    command->add_option("-o,--output", job.folder,
+                        "Folder for the page, bench.json and the reference (with --suite: bench)");
+    command->add_option("--integrators", a.integrators,
+                        "Ways to render, separated by commas: of auto, ept, ppt, vpt, stf (default: all)");
+    command->add_option("--accuracy", a.accuracy,
+                        "With auto: how far its approximations may go: of reference, high, standard, draft; several "
+                        "make several methods");
+    command
+        ->add_option("--time", job.seconds,
+                     "Seconds of rendering for each method, on a machine that does nothing else (default 20)")
+        ->check(CLI::Range(1e-3, 1e7));
+    command->add_option("--seeds", job.seeds, "Independent pictures of each method (default 4)")
+        ->check(CLI::Range(2, 1024));
+    auto* const file =
+        command->add_option("--reference", job.reference, "Picture (EXR) to compare with, in place of rendering one");
+    command
+        ->add_option("--reference-time", job.reference_seconds,
+                     "Seconds of rendering for the reference, by ept (default 60); one in the folder is gone on with")
+        ->check(CLI::Range(1e-3, 1e7))
+        ->excludes(file);
     command->add_option("--size", a.size, "Size of the picture, WIDTHxHEIGHT");
     command->add_option("--frame", job.frame, "Frame of the dump, counted from 0 (default: the first)");
     command->add_option("--seed", job.scene.options.seed, "Seed of the random numbers")->check(CLI::NonNegativeNumber);
     command->add_option("-t,--threads", job.scene.threads, "Threads (default: all cores)")->check(CLI::Range(1, 4096));
     command->add_option("-D", a.overrides, "Replace a value of the scene: -D camera.fov=40");
-    CLI::Option* const suite = command->add_option("--suite", a.suite_file, "Run a list of scenes, of this JSON file (default: examples/bench/suite.json), and print one screen")->expected(0, 1);
+    CLI::Option* const suite =
+        command
+            ->add_option(
+                "--suite", a.suite_file,
+                "Run a list of scenes, of this JSON file (default: examples/bench/suite.json), and print one screen")
+            ->expected(0, 1);
     command->add_option("--suite-scale", a.scale, "Factor of all times of the suite")->check(CLI::Range(1e-4, 1e4));
-    command->add_option("--readme", a.readme, "With --suite: put the numbers into this file too, between <!-- scree bench --> and <!-- /scree bench -->");
+    command->add_option(
+        "--readme", a.readme,
+        "With --suite: put the numbers into this file too, between <!-- scree bench --> and <!-- /scree bench -->");
     command->add_flag("-q,--quiet", job.quiet, "No progress");
-    for (const char* name : {"--integrators", "--accuracy", "--time", "--seeds", "--reference", "--reference-time", "--size", "--frame", "-D"}) suite->excludes(command->get_option(name));
+    for (const char* name : {"--integrators", "--accuracy", "--time", "--seeds", "--reference", "--reference-time",
+                             "--size", "--frame", "-D"})
+        suite->excludes(command->get_option(name));
     add_stress_option(*command);
     command->callback([arguments, suite] {
         arguments->suite = suite->count() > 0;

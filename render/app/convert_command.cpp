@@ -1,12 +1,12 @@
 #include "render/app/convert_command.h"
 
-#include "ingest/particles/csv_points.h"
-#include "ingest/particles/dump_series.h"
-#include "render/app/radius_option.h"
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/text.h"
+#include "ingest/particles/csv_points.h"
+#include "ingest/particles/dump_series.h"
 #include "ingest/particles/vdb_points.h"
+#include "render/app/radius_option.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -32,7 +32,8 @@ void run(ConvertOptions options)
     const std::filesystem::path out = options.files[1];
     const std::string extension = lower_case(out.extension().string());
     if (extension != ".csv" && extension != ".vdb")
-        throw InputError(out.string(), extension.empty() ? "no extension" : "extension " + extension, "an output that ends in .csv or .vdb");
+        throw InputError(out.string(), extension.empty() ? "no extension" : "extension " + extension,
+                         "an output that ends in .csv or .vdb");
     AtomicFile file(out);
 
     const DumpSeries series = DumpSeries::open(options.files[0]);
@@ -52,9 +53,13 @@ void add_convert_command(CLI::App& app)
 {
     auto options = std::make_shared<ConvertOptions>();
     CLI::App* command = app.add_subcommand("convert", "One frame of a dump as .csv or as .vdb points");
-    command->add_option("FILE", options->files, "IN, a dump or a pattern of dumps, and OUT, a .csv or .vdb file")->required();
+    command->add_option("FILE", options->files, "IN, a dump or a pattern of dumps, and OUT, a .csv or .vdb file")
+        ->required();
     command->add_option("--frame", options->frame, "The frame to convert, from 0")->capture_default_str();
-    command->add_option("--radius", options->radii, "Radius where the dump has none: R for all, or TYPE=R ...")->expected(1)->take_all()->allow_extra_args(false);
+    command->add_option("--radius", options->radii, "Radius where the dump has none: R for all, or TYPE=R ...")
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
     command->callback([options] { run(*options); });
 }
 

@@ -1,8 +1,8 @@
 #include "render/app/grain_portrait.h"
 
 #include "base/error.h"
-#include "render/loop/render_loop.h"
 #include "render/build/light_builder.h"
+#include "render/loop/render_loop.h"
 
 namespace scree {
 
@@ -10,8 +10,8 @@ namespace {
 
 const V3d to_viewer(0.6, -6.5, 5.2), to_sun(-0.9, -0.45, 0.75);
 
-/// Turns the mesh so that it lies on the side on which its middle is lowest; what is flat stands so that it mirrors the sun to
-/// the viewer.
+/// Turns the mesh so that it lies on the side on which its middle is lowest; what is flat stands so that it mirrors the
+/// sun to the viewer.
 void lay_down(TriangleMesh& mesh)
 {
     constexpr int directions = 400;
@@ -21,7 +21,8 @@ void lay_down(TriangleMesh& mesh)
         const double z = 1 - (2 * i + 1.0) / directions, phi = 2 * pi * std::numbers::phi * i, r = std::sqrt(1 - z * z);
         const V3d d(r * std::cos(phi), r * std::sin(phi), z);
         double reach = 0;
-        for (size_t k = 0; k < mesh.positions.size(); k += 1 + mesh.positions.size() / 20000) reach = std::max(reach, mesh.positions[k].dot(d));
+        for (size_t k = 0; k < mesh.positions.size(); k += 1 + mesh.positions.size() / 20000)
+            reach = std::max(reach, mesh.positions[k].dot(d));
         if (reach < lowest) {
             lowest = reach;
             down = d;
@@ -48,7 +49,8 @@ std::shared_ptr<const EnvironmentMap> make_sky()
     return std::make_shared<EnvironmentMap>(std::move(texels), width, height, V3d(0, 0, 1), Color(1.0f));
 }
 
-World make_world(const LibraryGrain& grain, const ShapeOptions& shape, const std::string& place, const EmbreeDevice& device)
+World make_world(const LibraryGrain& grain, const ShapeOptions& shape, const std::string& place,
+                 const EmbreeDevice& device)
 {
     World world; // one unit of length is the grain's radius
     GrainType type{grain.name, grain.material, nullptr};
@@ -69,7 +71,8 @@ World make_world(const LibraryGrain& grain, const ShapeOptions& shape, const std
 
     constexpr float half = 60; // of the floor: to the horizon, as far as the camera and the grain can tell
     const auto z = static_cast<float>(lowest - 0x1p-12);
-    Surface floor{"floor", {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}}, {{0, 1, 2}, {0, 2, 3}}, {}};
+    Surface floor{
+        "floor", {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}}, {{0, 1, 2}, {0, 2, 3}}, {}};
     floor.material.reflectance = Color(0.12f);
     world.surfaces.push_back(std::move(floor));
 
@@ -85,8 +88,8 @@ World make_world(const LibraryGrain& grain, const ShapeOptions& shape, const std
 
 } // namespace
 
-Film render_portrait(const LibraryGrain& grain, const ShapeOptions& shape, const PortraitOptions& options, const std::string& place,
-                     const Progress& progress)
+Film render_portrait(const LibraryGrain& grain, const ShapeOptions& shape, const PortraitOptions& options,
+                     const std::string& place, const Progress& progress)
 {
     const auto device = std::make_shared<EmbreeDevice>();
     const World world = make_world(grain, shape, place, *device);

@@ -26,14 +26,17 @@ void export_mesh(Arguments& a)
     check_mesh_extension(a.output);
     for (const std::string& setting : a.settings) {
         const size_t equals = setting.find('=');
-        const auto value = equals == std::string::npos ? std::nullopt : to_double(std::string_view(setting).substr(equals + 1));
-        if (!value) throw InputError("--set", in_quotes(setting), "name=value, e.g. rounding=0.05", "scree grains list " + a.name + " tells the names");
+        const auto value =
+            equals == std::string::npos ? std::nullopt : to_double(std::string_view(setting).substr(equals + 1));
+        if (!value)
+            throw InputError("--set", in_quotes(setting), "name=value, e.g. rounding=0.05",
+                             "scree grains list " + a.name + " tells the names");
         a.shape.parameters[setting.substr(0, equals)] = *value;
     }
     const TriangleMesh mesh = make_grain_shape(grain, a.shape, "scree grains export");
     write_mesh(a.output, mesh);
-    fmt::print("{}: {}, {} triangles, {} vertices, volume {:.4g} of the bounding sphere's\n", a.output, grain.name, mesh.triangles.size(), mesh.positions.size(),
-               signed_volume(mesh) / (4.0 / 3.0 * 3.14159265358979));
+    fmt::print("{}: {}, {} triangles, {} vertices, volume {:.4g} of the bounding sphere's\n", a.output, grain.name,
+               mesh.triangles.size(), mesh.positions.size(), signed_volume(mesh) / (4.0 / 3.0 * 3.14159265358979));
 }
 
 } // namespace
@@ -45,9 +48,12 @@ void add_grains_export_command(CLI::App& grains)
     CLI::App* command = grains.add_subcommand("export", "Write the mesh of a grain type, scaled into the unit sphere");
     command->add_option("name", a.name, "Grain type")->required();
     command->add_option("-o,--output", a.output, "Mesh to write: .obj, .ply, .stl or .off")->required();
-    command->add_option("--triangles", a.shape.triangles, "About how many (default: the type's)")->check(CLI::Range(least_shape_triangles, most_shape_triangles));
+    command->add_option("--triangles", a.shape.triangles, "About how many (default: the type's)")
+        ->check(CLI::Range(least_shape_triangles, most_shape_triangles));
     command->add_option("--seed", a.shape.seed, "Which individual")->check(CLI::NonNegativeNumber);
-    command->add_option("--set", a.settings, "A parameter of the shape, name=value; repeatable")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->add_option("--set", a.settings, "A parameter of the shape, name=value; repeatable")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->callback([arguments] { export_mesh(*arguments); });
 }
 

@@ -2,12 +2,12 @@
 
 #include "base/atomic_file.h"
 #include "base/console_progress.h"
-#include "base/error.h"
 #include "base/drawing/picture.h"
-#include "render/film/exr_output.h"
+#include "base/error.h"
+#include "base/interrupt.h"
 #include "render/app/grain_portrait.h"
 #include "render/app/table_command.h"
-#include "base/interrupt.h"
+#include "render/film/exr_output.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -57,7 +57,8 @@ void show(const Arguments& a)
 
     const int count = static_cast<int>(grains.size());
     const int columns = count <= 3 ? count : static_cast<int>(std::ceil(std::sqrt(1.4 * count)));
-    const int size = a.portrait.size, scale = std::max(1, size / 130), margin = 2 * scale, label = Picture::text_height(scale) + 2 * margin;
+    const int size = a.portrait.size, scale = std::max(1, size / 130), margin = 2 * scale,
+              label = Picture::text_height(scale) + 2 * margin;
     const int rows = (count + columns - 1) / columns;
     Picture sheet(columns * (size + margin) + margin, rows * (size + label + margin) + margin, {255, 255, 255});
 
@@ -69,7 +70,8 @@ void show(const Arguments& a)
         const Film film = render_portrait(grain, a.shape, a.portrait, "scree grains show", console.progress());
         const int x = margin + i % columns * (size + margin), y = margin + i / columns * (size + label + margin);
         place_portrait(film, x, y, sheet);
-        sheet.draw_text(x + (size - Picture::text_width(grain.name, scale)) / 2, y + size + margin, grain.name, {40, 40, 40}, scale);
+        sheet.draw_text(x + (size - Picture::text_width(grain.name, scale)) / 2, y + size + margin, grain.name,
+                        {40, 40, 40}, scale);
     }
     console.finish();
     sheet.write(a.output);
@@ -81,18 +83,19 @@ void add_grains_show_command(CLI::App& grains)
 {
     auto arguments = std::make_shared<Arguments>();
     Arguments& a = *arguments;
-    CLI::App* command = grains.add_subcommand("show", "Render a sheet with a picture of each grain type, at its typical size in daylight");
+    CLI::App* command = grains.add_subcommand(
+        "show", "Render a sheet with a picture of each grain type, at its typical size in daylight");
     command->add_option("name", a.names, "Grain types to show (default: all)");
     command->add_option("-o,--output", a.output, "Picture to write: .png, .jpg, ...")->required();
-    command->add_option("--size", a.portrait.size, "Width and height of each picture, pixels")->check(CLI::Range(16, 4096));
+    command->add_option("--size", a.portrait.size, "Width and height of each picture, pixels")
+        ->check(CLI::Range(16, 4096));
     command->add_option("--spp", a.portrait.spp, "Samples a pixel")->check(CLI::Range(1u, 1u << 20));
-    command->add_option("--triangles", a.shape.triangles, "Of each shape, about (default: the type's)")->check(CLI::Range(least_shape_triangles, most_shape_triangles));
+    command->add_option("--triangles", a.shape.triangles, "Of each shape, about (default: the type's)")
+        ->check(CLI::Range(least_shape_triangles, most_shape_triangles));
     command->add_option("--seed", a.shape.seed, "Which individuals")->check(CLI::NonNegativeNumber);
     command->add_option("-t,--threads", a.threads, "Threads (default: all cores)")->check(CLI::Range(1, 4096));
     command->add_flag("-q,--quiet", a.quiet, "No progress");
-    command->callback([arguments] {
-        run_command(arguments->threads, [&] { show(*arguments); });
-    });
+    command->callback([arguments] { run_command(arguments->threads, [&] { show(*arguments); }); });
 }
 
 } // namespace scree

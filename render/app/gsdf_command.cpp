@@ -1,14 +1,14 @@
 #include "render/app/gsdf_command.h"
 
 #include "base/console_progress.h"
-#include "base/error.h"
 #include "base/drawing/figure_drawing.h"
-#include "render/gsdf/error_figure.h"
-#include "render/gsdf/gsdf_report.h"
+#include "base/error.h"
+#include "base/interrupt.h"
 #include "render/app/subject_options.h"
 #include "render/app/table_command.h"
-#include "base/interrupt.h"
 #include "render/build/part_report.h"
+#include "render/gsdf/error_figure.h"
+#include "render/gsdf/gsdf_report.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -34,12 +34,16 @@ struct Arguments {
 
 class Command {
 public:
-    explicit Command(const Arguments& arguments) : a_(arguments), size_(read_figure_size(a_.out.size)), console_(a_.out.quiet) {}
+    explicit Command(const Arguments& arguments)
+        : a_(arguments), size_(read_figure_size(a_.out.size)), console_(a_.out.quiet)
+    {
+    }
 
     void run()
     {
         const std::vector<GsdfSubject> subjects = gsdf_subjects(a_.words, a_.subject, place);
-        if (!a_.out.figure.empty() && subjects.size() > 1) throw InputError("--figure", fmt::format("{} grains", subjects.size()), "one grain a figure");
+        if (!a_.out.figure.empty() && subjects.size() > 1)
+            throw InputError("--figure", fmt::format("{} grains", subjects.size()), "one grain a figure");
         check_outputs(a_.out);
         std::vector<uint64_t> hashes; // of the shapes: a missing file is told before the work as well
         for (const GsdfSubject& subject : subjects) hashes.push_back(hash_shape(subject.shape));
@@ -68,20 +72,22 @@ private:
         GsdfReport report{subject, work(source, a_.gsdf, cache_folder(), console_.progress()), 0, a_.gsdf.error, {}};
         report.seconds = watch.seconds();
         const std::string doubt = doubt_of(report.found.gsdf->data().quality, a_.gsdf.error);
-        if (!doubt.empty() && report.found.remark.empty()) report.found.remark = fmt::format("the scattering of '{}': {}", subject.name, doubt);
+        if (!doubt.empty() && report.found.remark.empty())
+            report.found.remark = fmt::format("the scattering of '{}': {}", subject.name, doubt);
         return report;
     }
 
     void draw(GsdfReport& report, bool table)
     {
         const std::shared_ptr<const Exemplar> shape = bodies_.body(report.subject);
-        const BruteForceMaps truth = brute_force_maps({shape.get(), report.subject.material}, a_.figure_paths, a_.gsdf.seed, console_.progress());
+        const BruteForceMaps truth = brute_force_maps({shape.get(), report.subject.material}, a_.figure_paths,
+                                                      a_.gsdf.seed, console_.progress());
         console_.finish();
         const ScatteringMap map = map_of_gsdf(*report.found.gsdf);
         report.figure = {a_.out.figure, truth.paths, map_errors(map, truth)};
         const std::vector<std::string> lines = form_table(report.figure->errors, report.subject.name);
-        const std::string title = fmt::format("{}: error of the GSDF against {:.2g} paths traced through the grain", report.subject.name,
-                                              static_cast<double>(truth.paths) * 2 / 3);
+        const std::string title = fmt::format("{}: error of the GSDF against {:.2g} paths traced through the grain",
+                                              report.subject.name, static_cast<double>(truth.paths) * 2 / 3);
         draw_error_figure(map, truth.both, size_.width, size_.height, title, lines).write(a_.out.figure);
         if (!table) return;
         print_line("");
@@ -96,14 +102,25 @@ private:
 
 void add_options(CLI::App& command, Arguments& a)
 {
-    command.add_option("what", a.words, "Grains of the library, 'all' of them, 'sphere', or mesh files (.obj .ply .stl .off)")->required();
+    command
+        .add_option("what", a.words,
+                    "Grains of the library, 'all' of them, 'sphere', or mesh files (.obj .ply .stl .off)")
+        ->required();
     add_subject_options(command, a.subject);
-    command.add_option("--error", a.gsdf.error, "Mean relative error wanted of the density of directions (default 0.03; the renderer asks for 0.005, 0.01, 0.03, 0.08 at accuracy reference, high, standard, draft)")->check(number_in(1e-4, 1));
+    command
+        .add_option("--error", a.gsdf.error,
+                    "Mean relative error wanted of the density of directions (default 0.03; the renderer asks for "
+                    "0.005, 0.01, 0.03, 0.08 at accuracy reference, high, standard, draft)")
+        ->check(number_in(1e-4, 1));
     command.add_flag("--force", a.again, "Trace again what is in the cache");
-    command.add_option("--figure", a.out.figure, "Picture of the error maps of one grain to write (.png, ...), and a table of what simpler forms miss");
+    command.add_option(
+        "--figure", a.out.figure,
+        "Picture of the error maps of one grain to write (.png, ...), and a table of what simpler forms miss");
     command.add_option("--size", a.out.size, "Of that picture, WIDTHxHEIGHT pixels (default 1600x1130)");
-    command.add_option("--figure-paths", a.figure_paths, "Through the grain, to compare with (default 12000000)")->check(CLI::Range(uint64_t{10'000}, uint64_t{1} << 36));
-    command.add_option("--json", a.out.json, "File to write everything to in numbers; - for standard output, without the table");
+    command.add_option("--figure-paths", a.figure_paths, "Through the grain, to compare with (default 12000000)")
+        ->check(CLI::Range(uint64_t{10'000}, uint64_t{1} << 36));
+    command.add_option("--json", a.out.json,
+                       "File to write everything to in numbers; - for standard output, without the table");
     add_run_options(command, a.out);
 }
 
@@ -112,11 +129,10 @@ void add_options(CLI::App& command, Arguments& a)
 void add_gsdf_command(CLI::App& grains)
 {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = grains.add_subcommand("gsdf", "Find grains' scattering in the cache or trace it; draw the error maps of one");
+    CLI::App* command =
+        grains.add_subcommand("gsdf", "Find grains' scattering in the cache or trace it; draw the error maps of one");
     add_options(*command, *arguments);
-    command->callback([arguments] {
-        run_command(arguments->out.threads, [&] { Command(*arguments).run(); });
-    });
+    command->callback([arguments] { run_command(arguments->out.threads, [&] { Command(*arguments).run(); }); });
 }
 
 } // namespace scree

@@ -6,8 +6,8 @@ class App;
 
 namespace scree {
 
-/// Adds `scree grains gsdf`: finds the scattering of grains in the cache or traces it, tells how well it is known, and draws
-/// the error maps of one grain (see error_figure.h).
+/// Adds `scree grains gsdf`: finds the scattering of grains in the cache or traces it, tells how well it is known, and
+/// draws the error maps of one grain (see error_figure.h).
 ///
 /// Outputs appear whole or not at all. Throws InputError out of the parse.
 void add_gsdf_command(CLI::App& grains);

@@ -1,8 +1,8 @@
 #include "render/app/info_command.h"
 
+#include "base/text.h"
 #include "ingest/info_report.h"
 #include "render/app/radius_option.h"
-#include "base/text.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -51,10 +51,17 @@ void add_info_command(CLI::App& app)
 {
     auto options = std::make_shared<InfoOptions>();
     CLI::App* command = app.add_subcommand("info", "What a particle dump, a file of points or a mesh holds");
-    command->add_option("FILE", options->files, "Dumps (also patterns: 'pour.*.dump.gz', pour.%04d.dump), .vdb points, and meshes (.obj .ply .stl .off)")->required();
+    command
+        ->add_option(
+            "FILE", options->files,
+            "Dumps (also patterns: 'pour.*.dump.gz', pour.%04d.dump), .vdb points, and meshes (.obj .ply .stl .off)")
+        ->required();
     command->add_flag("--json", options->as_json, "One JSON object a file, each on a line");
     command->add_option("--frame", options->frame, "The frame to measure, from 0")->capture_default_str();
-    command->add_option("--radius", options->radii, "Radius where the dump has none: R for all, or TYPE=R ...")->expected(1)->take_all()->allow_extra_args(false);
+    command->add_option("--radius", options->radii, "Radius where the dump has none: R for all, or TYPE=R ...")
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
     command->callback([options] { run(*options); });
 }
 

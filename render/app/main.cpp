@@ -1,11 +1,11 @@
-#include "render/app/convert_command.h"
-#include "render/app/info_command.h"
 #include "base/error.h"
+#include "render/app/bench_command.h"
+#include "render/app/convert_command.h"
+#include "render/app/grains_command.h"
+#include "render/app/info_command.h"
+#include "render/app/medium_command.h"
 #include "render/app/mixture_command.h"
 #include "render/app/pack_command.h"
-#include "render/app/bench_command.h"
-#include "render/app/medium_command.h"
-#include "render/app/grains_command.h"
 #include "render/app/render_command.h"
 
 #include <CLI/CLI.hpp>

@@ -15,7 +15,8 @@ void add_medium_option(CLI::App& app)
 {
     CLI::App* info = app.get_subcommand("info");
     auto scenes = std::make_shared<std::vector<std::string>>();
-    CLI::Option* option = info->add_option("--medium", *scenes, "Scenes: what their media are, and the medium that their grains are from afar");
+    CLI::Option* option = info->add_option(
+        "--medium", *scenes, "Scenes: what their media are, and the medium that their grains are from afar");
     CLI::Option* files = info->get_option("FILE");
     files->required(false);
     info->parse_complete_callback([=] { // before the files, if there are any, are described
@@ -25,8 +26,10 @@ void add_medium_option(CLI::App& app)
         for (const std::string& file : *scenes) {
             const JsonDocument document = JsonDocument::load(file);
             const nlohmann::json description = describe_media(read_scene(document, file), frame, {});
-            if (as_json) fmt::print("{}\n", description.dump());
-            else fmt::print("{}", text_of_media(description));
+            if (as_json)
+                fmt::print("{}\n", description.dump());
+            else
+                fmt::print("{}", text_of_media(description));
         }
     });
 }

@@ -9,7 +9,8 @@
 
 namespace scree {
 
-/// What the media of a scene are, the medium that stands for its grains included; lengths in the unit of the scene. frame: of the grains.
+/// What the media of a scene are, the medium that stands for its grains included; lengths in the unit of the scene.
+/// frame: of the grains.
 ///
 /// Throws InputError, Cancelled.
 nlohmann::json describe_media(const SceneDescription& scene, size_t frame, const Progress& progress);

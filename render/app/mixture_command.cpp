@@ -1,13 +1,13 @@
 #include "render/app/mixture_command.h"
 
-#include "render/app/radius_option.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "mixtures/describe_mixture.h"
-#include "render/app/mixture_inputs.h"
 #include "mixtures/pattern_statistics.h"
 #include "mixtures/read_mixture.h"
 #include "mixtures/slice_picture.h"
+#include "render/app/mixture_inputs.h"
+#include "render/app/radius_option.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -66,8 +66,8 @@ void print_statistics(const TypedFrame& typed)
     }
     if (s.correlation_length == 0) {
         const auto& first = s.correlation[0];
-        fmt::print("correlation length: none; neighbours ({:.4g} apart) correlate by {:.3f} +- {:.3f}\n", first.distance, first.value,
-                   1.96 * first.standard_error);
+        fmt::print("correlation length: none; neighbours ({:.4g} apart) correlate by {:.3f} +- {:.3f}\n",
+                   first.distance, first.value, 1.96 * first.standard_error);
     } else if (std::isinf(s.correlation_length)) {
         fmt::print("correlation length: beyond {:.4g}, half of the spheres' extent\n", s.correlation.back().distance);
     } else {
@@ -103,7 +103,8 @@ void preview(PreviewOptions options)
     if (dump.empty()) throw InputError("scree mixture preview", "no dump", "MIXTURE and DUMP, or a scene that has one");
     const std::vector<std::string> any;
     const MixtureDescription mixture = read_mixture_file(file, scene ? scene->types : any);
-    const DumpReadOptions reading = options.radii.empty() && scene ? scene->reading : parse_radius_options(options.radii);
+    const DumpReadOptions reading =
+        options.radii.empty() && scene ? scene->reading : parse_radius_options(options.radii);
     SliceOptions slices;
     if (!options.at.empty()) slices.at = parse_place(options.at);
     slices.width = options.width;
@@ -111,7 +112,8 @@ void preview(PreviewOptions options)
     const TypedFrame typed = evaluate_mixture(mixture, scene, dump, reading, options.frame);
     if (options.statistics) print_statistics(typed);
     if (options.output.empty() && options.statistics) return;
-    const std::string output = options.output.empty() ? std::filesystem::path(file).stem().string() + ".png" : options.output;
+    const std::string output =
+        options.output.empty() ? std::filesystem::path(file).stem().string() + ".png" : options.output;
     const std::string title = std::filesystem::path(file).filename().string() + " on " + typed.title;
     slice_picture(typed.frame, typed.types, typed.names, title, slices).write(output);
     fmt::print("{}: slices of {} spheres\n", output, typed.frame.size());
@@ -148,7 +150,8 @@ void check(const std::string& file, const std::string& scene_file)
     fmt::print("{} fits {}; in {}\n", file, scene_file, typed.title);
     for (size_t k = 0; k < count.size(); ++k) {
         const bool possible = std::ranges::find(never, typed.names[k]) == never.end();
-        fmt::print("  {}: {} spheres{}\n", typed.names[k], count[k], count[k] == 0 && possible ? ", though it could be chosen" : "");
+        fmt::print("  {}: {} spheres{}\n", typed.names[k], count[k],
+                   count[k] == 0 && possible ? ", though it could be chosen" : "");
     }
 }
 
@@ -156,7 +159,8 @@ void check(const std::string& file, const std::string& scene_file)
 
 void add_mixture_command(CLI::App& app)
 {
-    CLI::App* mixture = app.add_subcommand("mixture", "Write a mixture of grain types, look at it, hold it against a scene");
+    CLI::App* mixture =
+        app.add_subcommand("mixture", "Write a mixture of grain types, look at it, hold it against a scene");
     mixture->require_subcommand(1);
     add_mixture_new_command(*mixture);
 
@@ -166,18 +170,27 @@ void add_mixture_command(CLI::App& app)
     command->callback([names] { show((*names)[0]); });
 
     auto options = std::make_shared<PreviewOptions>();
-    command = mixture->add_subcommand("preview", "Three slices through a dump's spheres coloured by type, or statistics");
+    command =
+        mixture->add_subcommand("preview", "Three slices through a dump's spheres coloured by type, or statistics");
     command->add_option("FILE", options->files, "MIXTURE (or a scene), and DUMP unless the scene has one")->required();
-    command->add_option("--frame", options->frame, "The frame, from 0; from the end when negative")->capture_default_str();
+    command->add_option("--frame", options->frame, "The frame, from 0; from the end when negative")
+        ->capture_default_str();
     command->add_option("-o,--output", options->output, "The picture (the mixture's name with .png when left out)");
-    command->add_flag("--stat", options->statistics, "Fractions by number and volume with intervals, and the correlation length");
-    command->add_option("--at", options->at, "x,y,z where the three slices meet (the mean of the centres when left out)");
-    command->add_option("--width", options->width, "Of the picture in pixels, about")->check(CLI::Range(300, 8000))->capture_default_str();
+    command->add_flag("--stat", options->statistics,
+                      "Fractions by number and volume with intervals, and the correlation length");
+    command->add_option("--at", options->at,
+                        "x,y,z where the three slices meet (the mean of the centres when left out)");
+    command->add_option("--width", options->width, "Of the picture in pixels, about")
+        ->check(CLI::Range(300, 8000))
+        ->capture_default_str();
     command->add_option("--radius", options->radii, "Radius where the dump has none: R for all, or TYPE=R ...")
-        ->expected(1)->take_all()->allow_extra_args(false);
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
     command->callback([options] { preview(*options); });
 
-    command = mixture->add_subcommand("check", "Whether a mixture fits a scene: types missing, misspelt or never chosen");
+    command =
+        mixture->add_subcommand("check", "Whether a mixture fits a scene: types missing, misspelt or never chosen");
     command->add_option("MIXTURE", (*names)[1], "A mixture file")->required();
     command->add_option("SCENE", (*names)[2], "The scene")->required();
     command->callback([names] { check((*names)[1], (*names)[2]); });

@@ -6,7 +6,8 @@ class App;
 
 namespace scree {
 
-/// Adds `scree mixture new|show|preview|check`: writes a mixture, tells and draws what it does, holds it against a scene.
+/// Adds `scree mixture new|show|preview|check`: writes a mixture, tells and draws what it does, holds it against a
+/// scene.
 ///
 /// Wherever a mixture file is asked for, a scene will do: its mixture is meant. Outputs appear whole or not at all.
 /// Throws InputError out of the parse.

@@ -26,7 +26,8 @@ size_t frame_number(const DumpSeries& series, int64_t frame, const std::string& 
     const auto count = static_cast<int64_t>(series.frame_count());
     const int64_t at = frame < 0 ? frame + count : frame;
     if (at < 0 || at >= count)
-        throw InputError(dump, fmt::format("--frame {}", frame), fmt::format("one of {} frames, {}..{}", count, -count, count - 1));
+        throw InputError(dump, fmt::format("--frame {}", frame),
+                         fmt::format("one of {} frames, {}..{}", count, -count, count - 1));
     return static_cast<size_t>(at);
 }
 
@@ -52,7 +53,8 @@ SceneGrains read_scene_grains(const std::filesystem::path& file)
     if (const auto dump = object.find("dump")) scene.dump = dump->path().string();
     if (const auto types = object.find("types")) {
         JsonObject map = types->object();
-        for (const std::string& key : map.take_keys()) scene.file_types[type_number(key, *types)] = map.require(key).string();
+        for (const std::string& key : map.take_keys())
+            scene.file_types[type_number(key, *types)] = map.require(key).string();
     }
     if (const auto radius = object.find("radius")) {
         if (radius->is_number()) {
@@ -66,8 +68,8 @@ SceneGrains read_scene_grains(const std::filesystem::path& file)
     return scene;
 }
 
-TypedFrame evaluate_mixture(const MixtureDescription& mixture, const std::optional<SceneGrains>& scene, const std::string& dump,
-                            const DumpReadOptions& reading, int64_t frame)
+TypedFrame evaluate_mixture(const MixtureDescription& mixture, const std::optional<SceneGrains>& scene,
+                            const std::string& dump, const DumpReadOptions& reading, int64_t frame)
 {
     const DumpSeries series = DumpSeries::open(dump);
     if (series.frame_count() == 0) throw InputError(dump, "no frames", "a dump with at least one frame");

@@ -15,7 +15,7 @@ namespace scree {
 struct SceneGrains {
     std::vector<std::string> types;
     std::map<int32_t, std::string> file_types; ///< dump's number -> grain type
-    std::string dump;                          ///< pattern; empty: the scene has no dump
+    std::string dump; ///< pattern; empty: the scene has no dump
     DumpReadOptions reading;
 };
 
@@ -28,16 +28,16 @@ SceneGrains read_scene_grains(const std::filesystem::path& file);
 /// One frame of a dump with the type of every sphere.
 struct TypedFrame {
     ParticleFrame frame;
-    std::vector<uint32_t> types;    ///< places in names
+    std::vector<uint32_t> types; ///< places in names
     std::vector<std::string> names;
-    std::string title;              ///< "file step N"
+    std::string title; ///< "file step N"
 };
 
 /// Evaluates a mixture on a frame of a dump as a film of it would: see MixtureSeries.
 ///
-/// scene: nothing, and then the types are those that the mixture names, or "type N" of the dump. frame: from the end when
-/// negative. Throws InputError.
-TypedFrame evaluate_mixture(const MixtureDescription& mixture, const std::optional<SceneGrains>& scene, const std::string& dump,
-                            const DumpReadOptions& reading, int64_t frame);
+/// scene: nothing, and then the types are those that the mixture names, or "type N" of the dump. frame: from the end
+/// when negative. Throws InputError.
+TypedFrame evaluate_mixture(const MixtureDescription& mixture, const std::optional<SceneGrains>& scene,
+                            const std::string& dump, const DumpReadOptions& reading, int64_t frame);
 
 } // namespace scree

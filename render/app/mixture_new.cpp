@@ -21,7 +21,7 @@ namespace {
 using nlohmann::ordered_json;
 
 struct NewOptions {
-    std::vector<std::string> words;            // the types, mostly with a number each
+    std::vector<std::string> words; // the types, mostly with a number each
     std::map<std::string, std::string> values; // by JSON key
     std::string output;
 };
@@ -43,21 +43,39 @@ std::vector<NewKind> new_kinds()
 {
     return {
         {"single", "One type for all", "TYPE", "The grain type", nullptr, {}},
-        {"random", "Each sphere draws its type", "TYPE[=WEIGHT]", "The grain types with their weights (all 1 when left out)", "weights",
-         {{"--by", "by", "number (each sphere by itself) or volume (fractions by volume to about the smallest sphere)"}, seed}},
-        {"perlin", "Patches of Perlin noise", "TYPE[=FRACTION]", "The grain types, from low noise to high", "fraction",
+        {"random",
+         "Each sphere draws its type",
+         "TYPE[=WEIGHT]",
+         "The grain types with their weights (all 1 when left out)",
+         "weights",
+         {{"--by", "by", "number (each sphere by itself) or volume (fractions by volume to about the smallest sphere)"},
+          seed}},
+        {"perlin",
+         "Patches of Perlin noise",
+         "TYPE[=FRACTION]",
+         "The grain types, from low noise to high",
+         "fraction",
          {{"--scale", "scale", "Width of the noise's lattice; one number or x,y,z (required)"},
           {"--threshold", "threshold", "Noise (-1..1) where the next type begins; one fewer than types"},
           {"--fraction", "fraction", "Fraction of the first type, or of each: T,U,...; the thresholds are solved for"},
           {"--octaves", "octaves", "Layers of ever finer noise"},
           {"--lacunarity", "lacunarity", "Frequency of an octave over that of the one before"},
           {"--gain", "gain", "Amplitude of an octave over that of the one before"},
-          offset, seed}},
-        {"checkerboard", "Cells in turns", "TYPE", "The grain types", nullptr,
+          offset,
+          seed}},
+        {"checkerboard",
+         "Cells in turns",
+         "TYPE",
+         "The grain types",
+         nullptr,
          {{"--cell", "cell", "Edge of a cell; one number or x,y,z (required)"},
           {"--offset", "offset", "x,y,z of a corner"},
           {"--rotation", "rotation", "Degrees about x, then y, then z: x,y,z"}}},
-        {"layers", "Layers along a direction", "TYPE[=THICKNESS]", "The layers in order", "thicknesses",
+        {"layers",
+         "Layers along a direction",
+         "TYPE[=THICKNESS]",
+         "The layers in order",
+         "thicknesses",
          {{"--thickness", "thicknesses", "Of every layer, or of each: T,U,..."},
           {"--direction", "direction", "x,y,z from the first layer to the next (0,0,1 when left out)"},
           {"--offset", "offset", "Where the first layer begins along the direction"},
@@ -65,13 +83,29 @@ std::vector<NewKind> new_kinds()
           {"--jitter", "jitter/amplitude", "Moves the faces by noise of this amplitude"},
           {"--jitter-scale", "jitter/scale", "Width of that noise's lattice"},
           {"--jitter-seed", "jitter/seed", "Its seed"}}},
-        {"radius", "By the sphere's radius", "TYPE", "The grain types, from small to large", nullptr,
+        {"radius",
+         "By the sphere's radius",
+         "TYPE",
+         "The grain types, from small to large",
+         nullptr,
          {{"--thresholds", "thresholds", "Radii where the next type begins: R,S,... (required)"}}},
-        {"grid", "By concentrations in OpenVDB grids", "TYPE=FILE[:GRID]", "The grain types, each with its field", nullptr,
+        {"grid",
+         "By concentrations in OpenVDB grids",
+         "TYPE=FILE[:GRID]",
+         "The grain types, each with its field",
+         nullptr,
          {{"--rest", "rest", "Type where the concentrations leave room"}, seed}},
-        {"blend", "One mixture picks between others", "NAME=TYPE|FILE.json", "The mixtures and how the picking one calls them", nullptr,
+        {"blend",
+         "One mixture picks between others",
+         "NAME=TYPE|FILE.json",
+         "The mixtures and how the picking one calls them",
+         nullptr,
          {{"--by", "by", "FILE.json: the mixture that picks; its types are the NAMEs (required)"}}},
-        {"explicit", "As the dump or a table says", "NUMBER=TYPE", "What the numbers mean (when left out: what the scene says)", nullptr,
+        {"explicit",
+         "As the dump or a table says",
+         "NUMBER=TYPE",
+         "What the numbers mean (when left out: what the scene says)",
+         nullptr,
          {{"--table", "table", "Types by row or id: .csv or .vdb"},
           {"--column", "column", "The table's column (or attribute) of types"},
           {"--id", "id", "The table's column of ids"}}},
@@ -181,7 +215,8 @@ void run(const NewKind& kind, const NewOptions& options)
     }
     AtomicFile file(output);
     std::ofstream out(file.temporary(), std::ios::binary);
-    if (!(out << text).flush()) throw InputError(options.output, "a file that cannot be written", "room and permission to write");
+    if (!(out << text).flush())
+        throw InputError(options.output, "a file that cannot be written", "room and permission to write");
     out.close();
     file.commit();
     fmt::print("{}: {}", options.output, words_of_mixture(mixture));

@@ -20,7 +20,8 @@ std::pair<int, int> parse_picture_size(const std::string& text)
 std::pair<std::string, std::string> parse_override(const std::string& text)
 {
     const size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) throw InputError("-D", "'" + text + "'", "key=value, e.g. camera.fov=40");
+    if (equals == std::string::npos || equals == 0)
+        throw InputError("-D", "'" + text + "'", "key=value, e.g. camera.fov=40");
     return {text.substr(0, equals), text.substr(equals + 1)};
 }
 

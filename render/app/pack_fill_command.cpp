@@ -24,7 +24,8 @@ struct FillArguments {
 
 void run_fill(const FillArguments& a)
 {
-    if (lower_case(a.output.extension().string()) != ".vdb") throw InputError("--output", "'" + a.output.string() + "'", "a name that ends in .vdb");
+    if (lower_case(a.output.extension().string()) != ".vdb")
+        throw InputError("--output", "'" + a.output.string() + "'", "a name that ends in .vdb");
     AtomicFile file(a.output); // can be written, before the work
     ConsoleProgress console(a.quiet);
     TriangleMesh mesh = read_mesh(a.mesh);
@@ -38,17 +39,20 @@ void run_fill(const FillArguments& a)
     VdbPointStream stream(file.temporary(), fill.voxel());
     uint64_t count = 0;
     double volume = 0;
-    list_fill(fill, uint64_t{1} << 22, [&](const ParticleFrame& batch) {
-        stream.add(batch);
-        count += batch.size();
-        for (const double r : batch.radius) volume += 4.0 / 3 * std::numbers::pi * r * r * r;
-    }, console.progress());
+    list_fill(
+        fill, uint64_t{1} << 22,
+        [&](const ParticleFrame& batch) {
+            stream.add(batch);
+            count += batch.size();
+            for (const double r : batch.radius) volume += 4.0 / 3 * std::numbers::pi * r * r * r;
+        },
+        console.progress());
     stream.finish();
     file.commit();
     console.finish();
     if (a.quiet) return;
-    fmt::print("{}: {} spheres, {:.4f} of the mesh's volume of {:g} (the tile: {:.4f})\n", a.output.string(), count, volume / domain->volume(),
-               domain->volume(), tile->fraction());
+    fmt::print("{}: {} spheres, {:.4f} of the mesh's volume of {:g} (the tile: {:.4f})\n", a.output.string(), count,
+               volume / domain->volume(), domain->volume(), tile->fraction());
 }
 
 } // namespace
@@ -57,12 +61,17 @@ void add_pack_fill_command(CLI::App& pack)
 {
     auto arguments = std::make_shared<FillArguments>();
     FillArguments& a = *arguments;
-    CLI::App* command = pack.add_subcommand("fill", "List the spheres that a fill of a mesh consists of, as OpenVDB points");
-    command->add_option("mesh", a.mesh, "Mesh to fill: OBJ, PLY, STL or OFF; closed, oriented, not intersecting itself")->required();
+    CLI::App* command =
+        pack.add_subcommand("fill", "List the spheres that a fill of a mesh consists of, as OpenVDB points");
+    command->add_option("mesh", a.mesh, "Mesh to fill: OBJ, PLY, STL or OFF; closed, oriented, not intersecting itself")
+        ->required();
     command->add_option("tile", a.tile, "Periodic packing, as `scree pack tile` writes it (.vdb)")->required();
     command->add_option("-o,--output", a.output, "Points to write (.vdb)")->required();
-    command->add_option("--radius", a.fill.radius, "Mean radius of the spheres, in the mesh's unit")->required()->check(CLI::PositiveNumber);
-    command->add_option("--seed", a.fill.seed, "Of which variant of the tile stands where")->check(CLI::NonNegativeNumber);
+    command->add_option("--radius", a.fill.radius, "Mean radius of the spheres, in the mesh's unit")
+        ->required()
+        ->check(CLI::PositiveNumber);
+    command->add_option("--seed", a.fill.seed, "Of which variant of the tile stands where")
+        ->check(CLI::NonNegativeNumber);
     command->add_flag("--repair", a.repair, "Mend the mesh first where it is broken, and say how");
     command->add_flag("-q,--quiet", a.quiet, "No progress, no summary");
     command->callback([arguments] { run_fill(*arguments); });

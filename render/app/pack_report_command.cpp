@@ -1,17 +1,17 @@
 #include "render/app/pack_command.h"
 
-#include "ingest/particles/dump_series.h"
-#include "render/app/radius_option.h"
 #include "base/atomic_file.h"
 #include "base/console_progress.h"
 #include "base/error.h"
 #include "base/text.h"
+#include "ingest/particles/dump_series.h"
 #include "ingest/particles/vdb_points.h"
+#include "packing/report/packing_report.h"
+#include "packing/report/report_page.h"
 #include "packing/solids/distance_field.h"
 #include "packing/solids/domain.h"
 #include "packing/solids/interior_sampler.h"
-#include "packing/report/packing_report.h"
-#include "packing/report/report_page.h"
+#include "render/app/radius_option.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -45,7 +45,8 @@ std::vector<Output> open_outputs(const ReportArguments& a)
     std::vector<Output> outputs;
     for (const std::string& name : a.outputs) {
         const std::string extension = lower_case(std::filesystem::path(name).extension().string());
-        if (extension != ".html" && extension != ".json") throw InputError("--output", in_quotes(name), "a name that ends in .html or .json");
+        if (extension != ".html" && extension != ".json")
+            throw InputError("--output", in_quotes(name), "a name that ends in .html or .json");
         outputs.push_back({name, extension == ".json", nullptr});
     }
     if (!a.json.empty()) outputs.push_back({a.json, true, nullptr});
@@ -64,10 +65,12 @@ void write_output(const Output& output, const std::string& text)
 ParticleFrame read_points(const std::string& file, PackingSource& source)
 {
     const std::vector<std::string> grids = list_vdb_points(file);
-    const auto variants = std::ranges::count_if(grids, [](const std::string& name) { return name.starts_with("variant_"); });
+    const auto variants =
+        std::ranges::count_if(grids, [](const std::string& name) { return name.starts_with("variant_"); });
     ParticleFrame frame = read_vdb_points(file);
     source.facts.emplace_back("format", "OpenVDB points");
-    if (variants > 0) source.notes.push_back(fmt::format("a tile of {} variants: this is variant 0, and ids are rows", variants + 1));
+    if (variants > 0)
+        source.notes.push_back(fmt::format("a tile of {} variants: this is variant 0, and ids are rows", variants + 1));
     const bool periodic = frame.box && std::ranges::count(frame.box->periodic, true) == 3;
     source.hard = periodic;
     return frame;
@@ -77,7 +80,9 @@ ParticleFrame read_dump(const ReportArguments& a, PackingSource& source, const P
 {
     const DumpSeries series = DumpSeries::open(a.packing[0], progress);
     const int64_t count = static_cast<int64_t>(series.frame_count()), wanted = a.frame < 0 ? count + a.frame : a.frame;
-    if (wanted < 0 || wanted >= count) throw InputError("--frame", fmt::format("{}", a.frame), fmt::format("-{}..{}: {} has {} frames", count, count - 1, a.packing[0], count));
+    if (wanted < 0 || wanted >= count)
+        throw InputError("--frame", fmt::format("{}", a.frame),
+                         fmt::format("-{}..{}: {} has {} frames", count, count - 1, a.packing[0], count));
     const size_t frame = static_cast<size_t>(wanted);
     for (const std::string& warning : series.warnings()) source.notes.push_back(warning);
     ParticleFrame particles = series.read(frame, parse_radius_options(a.radii), progress);
@@ -113,14 +118,18 @@ Solid read_solid(const ReportArguments& a, const ParticleFrame& frame, PackingSo
     solid.field = std::make_unique<DistanceField>(*solid.domain, static_cast<int>(cells));
     progress.update("mesh", 1);
     source.mesh = a.mesh;
-    source.facts.emplace_back("mesh volume", fmt::format("{:.9g} by {}; {:.9g} by the divergence theorem", solid.sampler->volume(), solid.sampler->method(), solid.domain->volume()));
+    source.facts.emplace_back("mesh volume",
+                              fmt::format("{:.9g} by {}; {:.9g} by the divergence theorem", solid.sampler->volume(),
+                                          solid.sampler->method(), solid.domain->volume()));
     return solid;
 }
 
 void run_report(ReportArguments a)
 {
     take_radii_from_files(a.packing, a.radii);
-    if (a.packing.size() != 1) throw InputError("scree pack report", fmt::format("{} names", a.packing.size()), "one packing", "quote patterns from the shell; --frame chooses the frame");
+    if (a.packing.size() != 1)
+        throw InputError("scree pack report", fmt::format("{} names", a.packing.size()), "one packing",
+                         "quote patterns from the shell; --frame chooses the frame");
     const std::vector<Output> outputs = open_outputs(a);
     ConsoleProgress console(a.quiet);
     const Progress& progress = console.progress();
@@ -133,17 +142,21 @@ void run_report(ReportArguments a)
     if (!a.mesh.empty()) {
         solid = read_solid(a, frame, source, progress);
         container = {solid.domain.get(), solid.sampler.get(), solid.field.get()};
-        if (frame.box && std::ranges::count(frame.box->periodic, true) > 0) source.notes.push_back("the mesh bounds the packing: periodic images are left out");
+        if (frame.box && std::ranges::count(frame.box->periodic, true) > 0)
+            source.notes.push_back("the mesh bounds the packing: periodic images are left out");
         source.hard = points;
     }
     const PackedSpheres spheres(frame, a.packing[0], container, progress);
     const PackingReport report = make_packing_report(spheres, std::move(source), progress);
     for (const Output& output : outputs)
-        write_output(output, output.as_json ? json_of(report).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n" : html_of(report));
+        write_output(output, output.as_json
+                                 ? json_of(report).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"
+                                 : html_of(report));
     for (const Output& output : outputs) output.file->commit();
     console.finish();
     if (a.quiet) return;
-    for (const Claim& claim : report.claims) fmt::print("{}  {:<13}  {}\n", word_of(claim.verdict), claim.key, claim.text);
+    for (const Claim& claim : report.claims)
+        fmt::print("{}  {:<13}  {}\n", word_of(claim.verdict), claim.key, claim.text);
     for (const std::string& note : report.source.notes) fmt::print("note: {}\n", note);
 }
 
@@ -153,15 +166,24 @@ void add_pack_report_command(CLI::App& pack)
 {
     auto arguments = std::make_shared<ReportArguments>();
     ReportArguments& a = *arguments;
-    CLI::App* command = pack.add_subcommand("report", "Measure a packing and hold it against theory: fraction, overlaps, containment, g(r), contacts, chords, order");
+    CLI::App* command = pack.add_subcommand(
+        "report",
+        "Measure a packing and hold it against theory: fraction, overlaps, containment, g(r), contacts, chords, order");
     command->add_option("PACKING", a.packing, "A LAMMPS dump, .vdb points, or a tile")->required();
     command->add_option("--mesh", a.mesh, "The solid it fills: OBJ, PLY, STL or OFF");
     command->add_flag("--repair", a.repair, "Mend the mesh first where it is broken, and say how");
-    command->add_option("-o,--output", a.outputs, "The report: .html (one page with plots) or .json (all numbers); may be given more than once")
-        ->expected(1)->take_all()->allow_extra_args(false);
+    command
+        ->add_option("-o,--output", a.outputs,
+                     "The report: .html (one page with plots) or .json (all numbers); may be given more than once")
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
     command->add_option("--json", a.json, "The numbers as JSON, whatever the name ends in");
     command->add_option("--frame", a.frame, "Of a dump, from 0; from the end when negative")->capture_default_str();
-    command->add_option("--radius", a.radii, "Radius where the dump has none: R for all, or TYPE=R ...")->expected(1)->take_all()->allow_extra_args(false);
+    command->add_option("--radius", a.radii, "Radius where the dump has none: R for all, or TYPE=R ...")
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
     command->add_flag("-q,--quiet", a.quiet, "No progress, no summary");
     command->callback([arguments] { run_report(*arguments); });
 }

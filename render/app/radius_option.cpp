@@ -31,9 +31,11 @@ DumpReadOptions parse_radius_options(const std::vector<std::string>& values)
     for (const std::string& value : values) {
         for (const std::string& part : split_commas(value)) {
             const size_t equals = part.find('=');
-            const std::optional<double> radius = to_double(equals == std::string::npos ? part : part.substr(equals + 1));
+            const std::optional<double> radius =
+                to_double(equals == std::string::npos ? part : part.substr(equals + 1));
             const std::optional<int64_t> type = equals == std::string::npos ? 0 : to_int64(part.substr(0, equals));
-            const bool type_fits = type && *type >= std::numeric_limits<int32_t>::min() && *type <= std::numeric_limits<int32_t>::max();
+            const bool type_fits =
+                type && *type >= std::numeric_limits<int32_t>::min() && *type <= std::numeric_limits<int32_t>::max();
             if (!radius || !type_fits || !(*radius >= 0) || !std::isfinite(*radius))
                 throw InputError("--radius", in_quotes(part), "a radius of 0 or more, or TYPE=RADIUS",
                                  "as in --radius 0.5, or --radius 1=0.5 2=0.7");
@@ -53,7 +55,8 @@ void take_radii_from_files(std::vector<std::string>& files, std::vector<std::str
     for (std::string& word : files) {
         const size_t equals = word.find('=');
         std::error_code ignored;
-        const bool is_radius = equals != std::string::npos && to_int64(word.substr(0, equals)) && !std::filesystem::exists(word, ignored);
+        const bool is_radius =
+            equals != std::string::npos && to_int64(word.substr(0, equals)) && !std::filesystem::exists(word, ignored);
         (is_radius ? radii : others).push_back(std::move(word));
     }
     files = std::move(others);

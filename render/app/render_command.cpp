@@ -33,12 +33,14 @@ std::vector<double> split_numbers(const std::string& text, char separator, size_
 }
 
 /// As split_numbers, of whole numbers in lo..hi.
-std::vector<int64_t> split_whole_numbers(const std::string& text, char separator, size_t count, double lo, double hi, const std::string& option,
-                                         const std::string& expected)
+std::vector<int64_t> split_whole_numbers(const std::string& text, char separator, size_t count, double lo, double hi,
+                                         const std::string& option, const std::string& expected)
 {
     std::vector<int64_t> whole;
     for (const double x : split_numbers(text, separator, count, option, expected)) {
-        if (x != std::floor(x) || x < lo || x > hi) throw InputError(option, "'" + text + "'", fmt::format("{}, whole numbers in {:.0f}..{:.0f}", expected, lo, hi));
+        if (x != std::floor(x) || x < lo || x > hi)
+            throw InputError(option, "'" + text + "'",
+                             fmt::format("{}, whole numbers in {:.0f}..{:.0f}", expected, lo, hi));
         whole.push_back(static_cast<int64_t>(x));
     }
     return whole;
@@ -48,14 +50,18 @@ std::vector<int64_t> split_whole_numbers(const std::string& text, char separator
 FrameRange parse_frames(const std::string& text)
 {
     const auto colons = static_cast<size_t>(std::count(text.begin(), text.end(), ':'));
-    const auto n = split_whole_numbers(text, ':', std::min<size_t>(colons, 2) + 1, 0, 1e9, "--frames", "A, A:B or A:B:STEP, counted from 0");
-    FrameRange range{static_cast<size_t>(n[0]), static_cast<size_t>(n.size() > 1 ? n[1] : n[0]), n.size() > 2 ? static_cast<size_t>(n[2]) : 1};
-    if (range.step == 0 || range.last < range.first) throw InputError("--frames", "'" + text + "'", "A <= B and a STEP of at least 1");
+    const auto n = split_whole_numbers(text, ':', std::min<size_t>(colons, 2) + 1, 0, 1e9, "--frames",
+                                       "A, A:B or A:B:STEP, counted from 0");
+    FrameRange range{static_cast<size_t>(n[0]), static_cast<size_t>(n.size() > 1 ? n[1] : n[0]),
+                     n.size() > 2 ? static_cast<size_t>(n[2]) : 1};
+    if (range.step == 0 || range.last < range.first)
+        throw InputError("--frames", "'" + text + "'", "A <= B and a STEP of at least 1");
     return range;
 }
 
 struct Arguments {
-    std::string integrator, accuracy, medium_form, stf_form, shells, size, crop, pixels, frames, debug, strategy = "both";
+    std::string integrator, accuracy, medium_form, stf_form, shells, size, crop, pixels, frames, debug,
+        strategy = "both";
     std::vector<std::string> overrides, aov;
     std::optional<double> error;
     RenderJob job;
@@ -74,7 +80,8 @@ void take_over(Arguments& a)
     }
     if (!a.pixels.empty()) {
         const auto n = split_whole_numbers(a.pixels, ',', 4, -1e6, 1e6, "--pixelbounds", "x0,x1,y0,y1 in pixels");
-        job.pixel_bounds = std::array<int, 4>{static_cast<int>(n[0]), static_cast<int>(n[1]), static_cast<int>(n[2]), static_cast<int>(n[3])};
+        job.pixel_bounds = std::array<int, 4>{static_cast<int>(n[0]), static_cast<int>(n[1]), static_cast<int>(n[2]),
+                                              static_cast<int>(n[3])};
     }
     // Negated, for what is not a number.
     if (a.error && !(*a.error > 0 && *a.error <= 1)) {
@@ -82,12 +89,14 @@ void take_over(Arguments& a)
     }
     job.options.error = a.error.value_or(0);
     if (a.error && job.spp && *job.spp < 4) {
-        throw InputError("--spp", std::to_string(*job.spp), "at least 4 with --error", "two halves of the samples tell the error from their spread");
+        throw InputError("--spp", std::to_string(*job.spp), "at least 4 with --error",
+                         "two halves of the samples tell the error from their spread");
     }
     if (!a.frames.empty()) job.frames = parse_frames(a.frames);
     if (!a.debug.empty()) {
         const auto n = split_whole_numbers(a.debug, ',', 3, 0, 0x1p32 - 1, "--debug-sample", "x,y,sample");
-        if (n[0] > 65535 || n[1] > 65535) throw InputError("--debug-sample", "'" + a.debug + "'", "a pixel of the picture");
+        if (n[0] > 65535 || n[1] > 65535)
+            throw InputError("--debug-sample", "'" + a.debug + "'", "a pixel of the picture");
         job.debug_sample = SamplePlace{static_cast<int>(n[0]), static_cast<int>(n[1]), static_cast<uint32_t>(n[2])};
     }
     for (const std::string& item : a.overrides) job.overrides.push_back(parse_override(item));
@@ -98,10 +107,13 @@ void take_over(Arguments& a)
         }
         job.aov.push_back(static_cast<Aov>(it - aov_names.begin()));
     }
-    const auto place_of = [](const std::vector<std::string>& names, const std::string& name) { return std::find(names.begin(), names.end(), name) - names.begin(); };
+    const auto place_of = [](const std::vector<std::string>& names, const std::string& name) {
+        return std::find(names.begin(), names.end(), name) - names.begin();
+    };
     if (!a.integrator.empty()) job.integrator = static_cast<IntegratorKind>(place_of(integrator_names, a.integrator));
     if (!a.accuracy.empty()) job.accuracy = static_cast<Accuracy>(place_of(accuracy_names, a.accuracy));
-    if (!a.medium_form.empty()) job.medium_form = static_cast<EquivalentForm>(place_of(medium_form_names, a.medium_form));
+    if (!a.medium_form.empty())
+        job.medium_form = static_cast<EquivalentForm>(place_of(medium_form_names, a.medium_form));
     if (!a.stf_form.empty()) job.stf_form = static_cast<StfForm>(place_of(stf_form_names, a.stf_form));
     if (!a.shells.empty()) job.shells = a.shells == "on";
     const std::vector<std::string> strategies{"both", "lights", "scattering"};
@@ -118,31 +130,72 @@ void add_render_command(CLI::App& app)
     CLI::App* command = app.add_subcommand("render", "Render a scene to pictures");
     command->add_option("scene", job.scene, "Scene file (JSON)")->required();
     command->add_option("-o,--output", job.outputs,
-                        "Picture to write: .exr, or .png, .jpg for looking at; repeatable; %04d takes the frame number (default: the scene's name .exr)");
-    command->add_option("--spp", job.spp, "Samples a pixel (default 64, or what --timeout allows and --error needs)")->check(CLI::Range(1u, 1u << 30));
-    command->add_option("--error", a.error, "Stop at this relative error of the picture, 0.02 for 2 %; noisy parts get more samples, --spp is the most");
-    command->add_option("--timeout", job.options.timeout, "Stop after this many seconds of rendering a frame")->check(CLI::PositiveNumber);
-    command->add_option("--integrator", a.integrator, "auto (the rest joined as the scene and --accuracy ask), ept (grains as they are), ppt (grains averaged over rotations), vpt (a medium in place of grains) or stf (the same, through shells)")->check(CLI::IsMember(integrator_names));
-    command->add_option("--accuracy", a.accuracy, "How far approximations may go: reference, high, standard or draft")->check(CLI::IsMember(accuracy_names));
-    command->add_option("--grain-depth", job.grain_depth, "How many mean radii below every face a medium stands for the grains (default: auto by --accuracy, ept and ppt nowhere)")->check(CLI::NonNegativeNumber);
-    command->add_option("--grain-flights", job.grain_flights, "Below every face, no fewer mean free paths of that medium (default: 0, auto by --accuracy)")->check(CLI::NonNegativeNumber);
-    command->add_option("--medium-form", a.medium_form, "How the medium of the grains is made: plain, formula, walk or decay (default)")->check(CLI::IsMember(medium_form_names));
-    command->add_option("--shells", a.shells, "Whether light goes through shells in media: on or off (default: on with auto and stf)")->check(CLI::IsMember({"on", "off"}));
-    command->add_option("--least-shell", job.least_shell, "Mean free paths that the largest shell of a medium has at least, else it gets none (default: 1; auto 8, and in grids where shells save work)")->check(CLI::NonNegativeNumber);
-    command->add_option("--stf-form", a.stf_form, "How shells are taken: full (default), cosine, hg, interpolated or diffusion")->check(CLI::IsMember(stf_form_names));
-    command->add_option("--explicit-grains", job.explicit_grains, "With auto and ppt: how many grains of a path are traced as they are (default: auto by --accuracy, ppt 0)");
-    command->add_option("--grain-pixels", job.grain_pixels, "Grains that look narrower than so many pixels are proxies from the first on (default: 0, auto by --accuracy)")->check(CLI::NonNegativeNumber);
-    command->add_option("--frames", a.frames, "Frames to render, counted from 0: A, A:B or A:B:STEP, B included (default: the first)");
+                        "Picture to write: .exr, or .png, .jpg for looking at; repeatable; %04d takes the frame number "
+                        "(default: the scene's name .exr)");
+    command->add_option("--spp", job.spp, "Samples a pixel (default 64, or what --timeout allows and --error needs)")
+        ->check(CLI::Range(1u, 1u << 30));
+    command->add_option(
+        "--error", a.error,
+        "Stop at this relative error of the picture, 0.02 for 2 %; noisy parts get more samples, --spp is the most");
+    command->add_option("--timeout", job.options.timeout, "Stop after this many seconds of rendering a frame")
+        ->check(CLI::PositiveNumber);
+    command
+        ->add_option("--integrator", a.integrator,
+                     "auto (the rest joined as the scene and --accuracy ask), ept (grains as they are), ppt (grains "
+                     "averaged over rotations), vpt (a medium in place of grains) or stf (the same, through shells)")
+        ->check(CLI::IsMember(integrator_names));
+    command->add_option("--accuracy", a.accuracy, "How far approximations may go: reference, high, standard or draft")
+        ->check(CLI::IsMember(accuracy_names));
+    command
+        ->add_option("--grain-depth", job.grain_depth,
+                     "How many mean radii below every face a medium stands for the grains (default: auto by "
+                     "--accuracy, ept and ppt nowhere)")
+        ->check(CLI::NonNegativeNumber);
+    command
+        ->add_option("--grain-flights", job.grain_flights,
+                     "Below every face, no fewer mean free paths of that medium (default: 0, auto by --accuracy)")
+        ->check(CLI::NonNegativeNumber);
+    command
+        ->add_option("--medium-form", a.medium_form,
+                     "How the medium of the grains is made: plain, formula, walk or decay (default)")
+        ->check(CLI::IsMember(medium_form_names));
+    command
+        ->add_option("--shells", a.shells,
+                     "Whether light goes through shells in media: on or off (default: on with auto and stf)")
+        ->check(CLI::IsMember({"on", "off"}));
+    command
+        ->add_option("--least-shell", job.least_shell,
+                     "Mean free paths that the largest shell of a medium has at least, else it gets none (default: 1; "
+                     "auto 8, and in grids where shells save work)")
+        ->check(CLI::NonNegativeNumber);
+    command
+        ->add_option("--stf-form", a.stf_form,
+                     "How shells are taken: full (default), cosine, hg, interpolated or diffusion")
+        ->check(CLI::IsMember(stf_form_names));
+    command->add_option(
+        "--explicit-grains", job.explicit_grains,
+        "With auto and ppt: how many grains of a path are traced as they are (default: auto by --accuracy, ppt 0)");
+    command
+        ->add_option("--grain-pixels", job.grain_pixels,
+                     "Grains that look narrower than so many pixels are proxies from the first on (default: 0, auto by "
+                     "--accuracy)")
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--frames", a.frames,
+                        "Frames to render, counted from 0: A, A:B or A:B:STEP, B included (default: the first)");
     command->add_option("--size", a.size, "Size of the picture, WIDTHxHEIGHT");
     command->add_option("--cropwindow", a.crop, "Render only x0,x1,y0,y1 of the picture, in 0..1");
     command->add_option("--pixelbounds", a.pixels, "Render only pixels x0,x1,y0,y1 (x1 and y1 excluded)");
     command->add_option("--aov", a.aov, "More channels: albedo,normal,depth,type,id,variance,samples")->delimiter(',');
     command->add_option("-t,--threads", job.threads, "Threads (default: all cores)")->check(CLI::Range(1, 4096));
     command->add_option("--seed", job.options.seed, "Seed of the random numbers")->check(CLI::NonNegativeNumber);
-    command->add_option("--max-depth", job.max_depth, "Cut paths after this many scattering events (a shell of a medium is one); darkens the picture (default: never)");
-    command->add_option("--direct-light", a.strategy, "How direct light is found: both, lights or scattering; for tests")
+    command->add_option("--max-depth", job.max_depth,
+                        "Cut paths after this many scattering events (a shell of a medium is one); darkens the picture "
+                        "(default: never)");
+    command
+        ->add_option("--direct-light", a.strategy, "How direct light is found: both, lights or scattering; for tests")
         ->check(CLI::IsMember({"both", "lights", "scattering"}));
-    command->add_flag("--resume", job.resume, "Go on from the checkpoint that an interrupted render of the same picture left");
+    command->add_flag("--resume", job.resume,
+                      "Go on from the checkpoint that an interrupted render of the same picture left");
     command->add_flag("--plan", job.plan_only, "Say what would be built and what is skipped, and render nothing");
     command->add_flag("--stats", job.stats, "Print statistics at the end");
     command->add_option("--stats-json", job.stats_json, "Write statistics to a JSON file");

@@ -1,16 +1,16 @@
 #include "render/app/stf_command.h"
 
 #include "base/console_progress.h"
-#include "base/error.h"
-#include "base/text.h"
 #include "base/drawing/figure_drawing.h"
-#include "render/gsdf/gsdf_cache.h"
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "base/text.h"
 #include "render/app/subject_options.h"
 #include "render/app/table_command.h"
-#include "base/interrupt.h"
-#include "render/equivalent/grain_moments.h"
 #include "render/build/shell_builder.h"
 #include "render/build/type_builder.h"
+#include "render/equivalent/grain_moments.h"
+#include "render/gsdf/gsdf_cache.h"
 #include "render/stf/stf_figure.h"
 #include "render/stf/stf_report.h"
 
@@ -49,40 +49,56 @@ struct Subject {
 Accuracy read_accuracy(const std::string& name)
 {
     const auto at = std::ranges::find(accuracy_names, name);
-    if (at == accuracy_names.end()) throw InputError("--accuracy", in_quotes(name), join_words(accuracy_names), did_you_mean(name, accuracy_names));
+    if (at == accuracy_names.end())
+        throw InputError("--accuracy", in_quotes(name), join_words(accuracy_names), did_you_mean(name, accuracy_names));
     return static_cast<Accuracy>(at - accuracy_names.begin());
 }
 
 void check_numbers(const Arguments& a)
 {
     for (const double g : a.g) {
-        if (!(std::abs(g) <= largest_g)) throw InputError("--g", fmt::format("{:g}", g), fmt::format("a mean cosine from -{0:g} to {0:g}", largest_g), "0.75 scatters forwards, 0 to all sides");
+        if (!(std::abs(g) <= largest_g))
+            throw InputError("--g", fmt::format("{:g}", g),
+                             fmt::format("a mean cosine from -{0:g} to {0:g}", largest_g),
+                             "0.75 scatters forwards, 0 to all sides");
     }
     if (!(a.radius >= 1 && a.radius <= largest_radius)) {
-        throw InputError("--radius", fmt::format("{:g}", a.radius), fmt::format("mean free paths, from 1 to {:g}", largest_radius), "it is the largest shell; all from 1 on are made");
+        throw InputError("--radius", fmt::format("{:g}", a.radius),
+                         fmt::format("mean free paths, from 1 to {:g}", largest_radius),
+                         "it is the largest shell; all from 1 on are made");
     }
-    if (!(a.albedo >= 0 && a.albedo <= 1)) throw InputError("--albedo", fmt::format("{:g}", a.albedo), "a number from 0 to 1", "1 absorbs nothing");
+    if (!(a.albedo >= 0 && a.albedo <= 1))
+        throw InputError("--albedo", fmt::format("{:g}", a.albedo), "a number from 0 to 1", "1 absorbs nothing");
 }
 
 std::vector<Subject> read_subjects(const Arguments& a)
 {
     if (a.words.empty() && a.g.empty()) {
-        throw InputError(place, "no phase function", "grains of the library, 'sphere', mesh files, or --g", "as in: scree grains stf --g 0.75");
+        throw InputError(place, "no phase function", "grains of the library, 'sphere', mesh files, or --g",
+                         "as in: scree grains stf --g 0.75");
     }
     const SubjectOptions& o = a.subject;
     if (a.words.empty() && (o.material || o.ior || o.roughness || !o.eta.empty() || !o.k.empty())) {
-        throw InputError("--material, --ior, --roughness, --eta, --k", "no grain", "a grain that it is of", "name one beside --g, or leave the option out");
+        throw InputError("--material, --ior, --roughness, --eta, --k", "no grain", "a grain that it is of",
+                         "name one beside --g, or leave the option out");
     }
     std::vector<Subject> subjects;
-    for (const GsdfSubject& grain : gsdf_subjects(a.words, o, place)) subjects.push_back({grain.name, grain, 0, hash_shape(grain.shape)});
+    for (const GsdfSubject& grain : gsdf_subjects(a.words, o, place))
+        subjects.push_back({grain.name, grain, 0, hash_shape(grain.shape)});
     for (const double g : a.g) subjects.push_back({fmt::format("g={:g}", g), std::nullopt, g, 0});
-    if (!a.out.figure.empty() && subjects.size() > 1) throw InputError("--figure", fmt::format("{} phase functions", subjects.size()), "one a figure", "ask for each with a file of its own");
+    if (!a.out.figure.empty() && subjects.size() > 1)
+        throw InputError("--figure", fmt::format("{} phase functions", subjects.size()), "one a figure",
+                         "ask for each with a file of its own");
     return subjects;
 }
 
 class Command {
 public:
-    explicit Command(const Arguments& arguments) : a_(arguments), accuracy_(read_accuracy(a_.accuracy)), size_(read_figure_size(a_.out.size)), console_(a_.out.quiet) {}
+    explicit Command(const Arguments& arguments)
+        : a_(arguments), accuracy_(read_accuracy(a_.accuracy)), size_(read_figure_size(a_.out.size)),
+          console_(a_.out.quiet)
+    {
+    }
 
     void run()
     {
@@ -100,7 +116,8 @@ public:
             console_.finish();
             const StfReport& report = reports.back();
             if (!report.remark.empty()) fmt::print(stderr, "scree: {}\n", report.remark);
-            for (size_t shell = 0; table && shell < report.shells.size(); ++shell) print_line(stf_table_line(report, shell));
+            for (size_t shell = 0; table && shell < report.shells.size(); ++shell)
+                print_line(stf_table_line(report, shell));
         }
         if (!a_.out.figure.empty()) draw(reports.front());
         write_json(a_.out, [&] { return stf_json(reports); });
@@ -110,13 +127,15 @@ private:
     /// Of the grain's GSDF, as a medium of such grains has it.
     std::shared_ptr<const PhaseTable> phase_table(const Subject& subject, StfReport& report)
     {
-        const GsdfSource source{subject.shape_hash, subject.grain->material, [&] { return bodies_.body(*subject.grain); }};
+        const GsdfSource source{subject.shape_hash, subject.grain->material,
+                                [&] { return bodies_.body(*subject.grain); }};
         const GsdfOptions options = gsdf_options(accuracy_);
         const FoundGsdf found = find_gsdf(source, options, cache_folder(), console_.progress());
         const GsdfQuality& quality = found.gsdf->data().quality;
         report.remark = found.remark;
         const std::string doubt = doubt_of(quality, options.error);
-        if (!doubt.empty() && report.remark.empty()) report.remark = fmt::format("the scattering of '{}': {}", subject.name, doubt);
+        if (!doubt.empty() && report.remark.empty())
+            report.remark = fmt::format("the scattering of '{}': {}", subject.name, doubt);
         report.gsdf_error = quality.density_error;
         return std::make_shared<PhaseTable>(grain_moments(*found.gsdf).phase);
     }
@@ -130,7 +149,8 @@ private:
         const std::shared_ptr<const PhaseTable> table = subject.grain ? phase_table(subject, report) : nullptr;
         const StfOptions options = stf_options(accuracy_);
         const auto count = static_cast<size_t>(Stf::largest(a_.radius, 64) + 1);
-        const StfCache::Found found = StfCache(cache_folder(), options).find(subject.g, table, count, console_.progress());
+        const StfCache::Found found =
+            StfCache(cache_folder(), options).find(subject.g, table, count, console_.progress());
         if (!found.remark.empty()) report.remark += (report.remark.empty() ? "" : "; ") + found.remark;
         report.stf = found.stf;
         report.walks = options.walks;
@@ -149,7 +169,8 @@ private:
             figure.maps.push_back(map_shell(*report.stf, shell, a_.figure_walks, a_.figure_seed, console_.progress()));
         }
         console_.finish();
-        const std::string title = fmt::format("{}, mean cosine {:.3f}: directions after two scatterings and more", report.name, report.stf->phase.mean_cosine());
+        const std::string title = fmt::format("{}, mean cosine {:.3f}: directions after two scatterings and more",
+                                              report.name, report.stf->phase.mean_cosine());
         draw_stf_figure(figure.maps, size_.width, size_.height, title).write(a_.out.figure);
         report.figure = std::move(figure);
     }
@@ -163,17 +184,28 @@ private:
 
 void add_options(CLI::App& command, Arguments& a)
 {
-    command.add_option("what", a.words, "Grains whose phase function to take: of the library, 'all' of them, 'sphere', or mesh files (.obj .ply .stl .off)");
-    command.add_option("--g", a.g, "Mean cosine of a phase function of Henyey and Greenstein; may be given again")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command.add_option("what", a.words,
+                       "Grains whose phase function to take: of the library, 'all' of them, 'sphere', or mesh files "
+                       "(.obj .ply .stl .off)");
+    command.add_option("--g", a.g, "Mean cosine of a phase function of Henyey and Greenstein; may be given again")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command.add_option("--radius", a.radius, "Largest shell, in mean free paths, 1 to 1024 (default 256)");
     command.add_option("--albedo", a.albedo, "To tell the shares of light at, 0 to 1 (default 0.99)");
-    command.add_option("--accuracy", a.accuracy, "Of GSDFs and shells, as the renderer's: reference, high, standard (default) or draft");
+    command.add_option("--accuracy", a.accuracy,
+                       "Of GSDFs and shells, as the renderer's: reference, high, standard (default) or draft");
     add_subject_options(command, a.subject);
-    command.add_option("--figure", a.out.figure, "Picture to write (.png, ...) of where light leaves shells to, of one phase function");
+    command.add_option("--figure", a.out.figure,
+                       "Picture to write (.png, ...) of where light leaves shells to, of one phase function");
     command.add_option("--size", a.out.size, "Of that picture, WIDTHxHEIGHT pixels (default 1600x1600)");
-    command.add_option("--figure-walks", a.figure_walks, "That scatter twice or more, a shell of the picture (default 2000000)")->check(CLI::Range(uint64_t{1000}, uint64_t{1} << 32));
+    command
+        .add_option("--figure-walks", a.figure_walks,
+                    "That scatter twice or more, a shell of the picture (default 2000000)")
+        ->check(CLI::Range(uint64_t{1000}, uint64_t{1} << 32));
     command.add_option("--figure-seed", a.figure_seed, "Of their random numbers (default 1)");
-    command.add_option("--json", a.out.json, "File to write everything to in numbers, with the picture's; - for standard output, without the table");
+    command.add_option(
+        "--json", a.out.json,
+        "File to write everything to in numbers, with the picture's; - for standard output, without the table");
     add_run_options(command, a.out);
 }
 
@@ -182,11 +214,10 @@ void add_options(CLI::App& command, Arguments& a)
 void add_stf_command(CLI::App& grains)
 {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = grains.add_subcommand("stf", "Tell what shells of a grain medium do to light, by shell transport functions; draw where it goes");
+    CLI::App* command = grains.add_subcommand(
+        "stf", "Tell what shells of a grain medium do to light, by shell transport functions; draw where it goes");
     add_options(*command, *arguments);
-    command->callback([arguments] {
-        run_command(arguments->out.threads, [&] { Command(*arguments).run(); });
-    });
+    command->callback([arguments] { run_command(arguments->out.threads, [&] { Command(*arguments).run(); }); });
 }
 
 } // namespace scree

@@ -3,8 +3,8 @@
 #include "base/atomic_file.h"
 #include "base/console_progress.h"
 #include "base/error.h"
-#include "render/stress/stress.h"
 #include "base/interrupt.h"
+#include "render/stress/stress.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -33,7 +33,8 @@ void write_json(const std::string& path, const StressReport& report)
     std::ofstream out(file.temporary());
     out << stress_json(report).dump(1) << "\n";
     out.close();
-    if (!out) throw InputError(path, "a disk that is full or cannot be written", "room for the results of the stress test");
+    if (!out)
+        throw InputError(path, "a disk that is full or cannot be written", "room for the results of the stress test");
     file.commit();
 }
 
@@ -60,16 +61,21 @@ void add_stress_option(CLI::App& bench)
 {
     auto arguments = std::make_shared<Arguments>();
     Arguments& a = *arguments;
-    CLI::Option* stress = bench.add_flag("--stress", a.wanted, "Test the numbers to their limits, on scenes of its own: scale, place, turn, sizes, materials, media, packings, long paths");
+    CLI::Option* stress = bench.add_flag("--stress", a.wanted,
+                                         "Test the numbers to their limits, on scenes of its own: scale, place, turn, "
+                                         "sizes, materials, media, packings, long paths");
     bench.add_flag("--quick", a.options.quick, "With --stress: a part of the cases, in under a minute")->needs(stress);
-    bench.add_option("--only", a.options.only, "With --stress: cases with this text in their name or their family's")->needs(stress);
+    bench.add_option("--only", a.options.only, "With --stress: cases with this text in their name or their family's")
+        ->needs(stress);
     bench.add_option("--stress-json", a.json, "With --stress: write what was found to this file too")->needs(stress);
     bench.parse_complete_callback([arguments, app = &bench] {
         if (!arguments->wanted) return;
         const CLI::Option* quiet = app->get_option_no_throw("--quiet");
         const CLI::Option* threads = app->get_option_no_throw("--threads");
         std::optional<tbb::global_control> limit;
-        if (threads && *threads) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(std::max(1, threads->as<int>())));
+        if (threads && *threads)
+            limit.emplace(tbb::global_control::max_allowed_parallelism,
+                          static_cast<size_t>(std::max(1, threads->as<int>())));
         throw CLI::RuntimeError(run(*arguments, quiet && *quiet));
     });
 }

@@ -53,8 +53,10 @@ void print_line(const std::string& line)
 
 void write_json(const TableOutputs& outputs, const std::function<std::string()>& json)
 {
-    if (outputs.json == "-") fmt::print("{}", json());
-    else if (!outputs.json.empty()) write_whole(outputs.json, json());
+    if (outputs.json == "-")
+        fmt::print("{}", json());
+    else if (!outputs.json.empty())
+        write_whole(outputs.json, json());
 }
 
 std::string progress_prefix(const std::string& name, size_t i, size_t count)

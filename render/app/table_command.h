@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/gsdf/gsdf_subject.h"
 #include "render/embree/embree_device.h"
+#include "render/gsdf/gsdf_subject.h"
 
 #include <functional>
 #include <memory>
@@ -18,7 +18,7 @@ namespace scree {
 
 struct TableOutputs {
     std::string figure, size, json; ///< names of files, or empty; size: WIDTHxHEIGHT of the figure
-    int threads = 0;                ///< 0: all cores
+    int threads = 0; ///< 0: all cores
     bool quiet = false;
 
     bool prints_table() const { return json != "-"; }

@@ -18,9 +18,13 @@ std::vector<size_t> places_of(const std::string& text, const std::vector<std::st
     std::istringstream in(text);
     for (std::string word; std::getline(in, word, ',');) {
         const auto it = std::ranges::find(names, word);
-        if (it == names.end()) throw InputError(option, "'" + word + "'", fmt::format("names of {}, separated by commas{}", fmt::join(names, ", "), did_you_mean(word, names)));
+        if (it == names.end())
+            throw InputError(
+                option, "'" + word + "'",
+                fmt::format("names of {}, separated by commas{}", fmt::join(names, ", "), did_you_mean(word, names)));
         const auto place = static_cast<size_t>(it - names.begin());
-        if (std::ranges::find(places, place) != places.end()) throw InputError(option, "'" + word + "' twice", "every name once");
+        if (std::ranges::find(places, place) != places.end())
+            throw InputError(option, "'" + word + "' twice", "every name once");
         places.push_back(place);
     }
     if (places.empty()) throw InputError(option, "nothing", fmt::format("names of {}", fmt::join(names, ", ")));
@@ -46,7 +50,9 @@ std::vector<BenchMethod> parse_methods(const std::string& integrators, const std
             methods.push_back({"auto " + accuracy_names[level], kind, static_cast<Accuracy>(level)});
         }
     }
-    if (!levels.empty() && !has_auto) throw InputError("--accuracy", accuracies, "auto among the integrators: no other has an accuracy", "add auto to --integrators, or leave --accuracy out");
+    if (!levels.empty() && !has_auto)
+        throw InputError("--accuracy", accuracies, "auto among the integrators: no other has an accuracy",
+                         "add auto to --integrators, or leave --accuracy out");
     return methods;
 }
 

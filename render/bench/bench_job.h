@@ -11,28 +11,28 @@ namespace scree {
 
 /// A way to render a scene that is held against others.
 struct BenchMethod {
-    std::string name;                   ///< e.g. "ppt" or "auto draft"
+    std::string name; ///< e.g. "ppt" or "auto draft"
     std::optional<IntegratorKind> integrator; ///< else the scene's, as the next
     std::optional<Accuracy> accuracy;
 };
 
 /// What `scree bench` was asked to do with one scene.
 struct BenchJob {
-    std::string title;                  ///< of the page
-    RenderJob scene;                    ///< file, size, replaced values, seed, threads; what methods do not set
+    std::string title; ///< of the page
+    RenderJob scene; ///< file, size, replaced values, seed, threads; what methods do not set
     size_t frame = 0;
     std::vector<BenchMethod> methods;
-    double seconds = 20;                ///< of each method, if all threads had a processor of their own
-    size_t seeds = 4;                   ///< independent pictures of each method, at least 2
-    std::filesystem::path reference;    ///< a picture to compare with; empty: one is rendered
-    double reference_seconds = 60;      ///< as `seconds`, of the reference
+    double seconds = 20; ///< of each method, if all threads had a processor of their own
+    size_t seeds = 4; ///< independent pictures of each method, at least 2
+    std::filesystem::path reference; ///< a picture to compare with; empty: one is rendered
+    double reference_seconds = 60; ///< as `seconds`, of the reference
     BenchMethod reference_method{"ept", IntegratorKind::ept, std::nullopt};
-    std::filesystem::path folder;       ///< for what is written
+    std::filesystem::path folder; ///< for what is written
     bool quiet = false;
 };
 
-/// Methods by the names of integrators and of accuracies, comma-separated: auto takes each accuracy, the others have none.
-/// Throws InputError that names the option.
+/// Methods by the names of integrators and of accuracies, comma-separated: auto takes each accuracy, the others have
+/// none. Throws InputError that names the option.
 std::vector<BenchMethod> parse_methods(const std::string& integrators, const std::string& accuracies);
 
 /// The job of `scree render` that a method is.

@@ -1,7 +1,7 @@
 #include "render/bench/bench_maps.h"
 
-#include "base/drawing/picture_file.h"
 #include "base/drawing/figure_drawing.h"
+#include "base/drawing/picture_file.h"
 #include "base/drawing/srgb.h"
 
 namespace scree {
@@ -15,7 +15,8 @@ std::string base64(const std::string& bytes)
     text.reserve((bytes.size() + 2) / 3 * 4);
     for (size_t i = 0; i < bytes.size(); i += 3) {
         uint32_t group = 0;
-        for (size_t k = 0; k < 3; ++k) group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+        for (size_t k = 0; k < 3; ++k)
+            group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
         for (size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
     }
     return text;
@@ -23,7 +24,10 @@ std::string base64(const std::string& bytes)
 
 } // namespace
 
-ScreenPicture screen_picture(const HalfPictures& picture, const std::vector<V3d>& radiance) { return {picture.width, picture.height, radiance}; }
+ScreenPicture screen_picture(const HalfPictures& picture, const std::vector<V3d>& radiance)
+{
+    return {picture.width, picture.height, radiance};
+}
 
 ScreenPicture screen_picture(const HalfPictures& picture)
 {
@@ -62,7 +66,8 @@ std::vector<float> shown_bias(const HalfPictures& picture, const HalfPictures& r
             double difference = 0, variance = 0;
             std::vector<size_t> pixels;
             for (int y = y0; y < std::min(h, y0 + bias_square); ++y)
-                for (int x = x0; x < std::min(w, x0 + bias_square); ++x) pixels.push_back(static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x));
+                for (int x = x0; x < std::min(w, x0 + bias_square); ++x)
+                    pixels.push_back(static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x));
             for (const size_t p : pixels) {
                 difference += channel_sum(picture.whole(p) - reference.whole(p));
                 // Channels of one sample go together: their deviations add, and not their variances.

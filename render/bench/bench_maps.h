@@ -16,8 +16,9 @@ ScreenPicture screen_picture(const HalfPictures& picture, const std::vector<V3d>
 std::vector<float> shown(const HalfPictures& picture);
 /// Differences 0 to 1 from black to pale yellow.
 std::vector<float> shown_flip(const std::vector<double>& map);
-/// Where a picture is darker (blue) or brighter (red) than the reference, in standard errors of the difference, in squares of
-/// bias_square pixels; white where there is none, full colour at bias_range. Empty where the noise of one of them is not known.
+/// Where a picture is darker (blue) or brighter (red) than the reference, in standard errors of the difference, in
+/// squares of bias_square pixels; white where there is none, full colour at bias_range. Empty where the noise of one of
+/// them is not known.
 std::vector<float> shown_bias(const HalfPictures& picture, const HalfPictures& reference);
 inline constexpr int bias_square = 4;
 inline constexpr double bias_range = 5;

@@ -34,8 +34,10 @@ figcaption { font-size: 13px; color: #34414f; margin: 3px 0 0; }
 std::string figure(const BenchResult& result, const std::vector<float>& rgb, const std::string& caption)
 {
     if (rgb.empty()) return "";
-    return fmt::format("<figure><img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\"/><figcaption>{}</figcaption></figure>\n", png_address(result.width(), result.height(), rgb),
-                       result.width(), result.height(), xml_escaped(caption), xml_escaped(caption));
+    return fmt::format(
+        "<figure><img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\"/><figcaption>{}</figcaption></figure>\n",
+        png_address(result.width(), result.height(), rgb), result.width(), result.height(), xml_escaped(caption),
+        xml_escaped(caption));
 }
 
 std::string cost_section(const BenchResult& result)
@@ -44,27 +46,45 @@ std::string cost_section(const BenchResult& result)
     for (const MethodResult& m : result.methods) {
         const RenderStatistics& s = m.statistics;
         const auto per_second = [&](uint64_t n) { return n > 0 ? count_words(rate(n, m)) : "-"; };
-        rows.push_back({m.name, m.plan, seconds_words(m.setup.read), seconds_words(m.setup.precompute), seconds_words(m.setup.build), setup_words(m.setup), seconds_words(m.time.wall), seconds_words(m.time.processor),
-                        bytes_words(m.memory), per_second(s.paths), per_second(s.segments + s.shadow_rays), per_second(s.events), per_second(s.shells)});
+        rows.push_back({m.name, m.plan, seconds_words(m.setup.read), seconds_words(m.setup.precompute),
+                        seconds_words(m.setup.build), setup_words(m.setup), seconds_words(m.time.wall),
+                        seconds_words(m.time.processor), bytes_words(m.memory), per_second(s.paths),
+                        per_second(s.segments + s.shadow_rays), per_second(s.events), per_second(s.shells)});
     }
-    return page_section("Cost", fmt::format("Rates are a second of processor time. Memory is the peak of a method's set-up above what there was before; the program's own peak was {}. "
-                                       "Read, precompute and build are by the clock. What a cache holds already is read and not computed.", bytes_words(result.peak_memory)),
-                   html_table({"method", "integrator", "read", "precompute", "build", "set up (processors)", "render (clock)", "render (processors)", "memory", "paths/s", "rays/s", "events/s", "shells/s"}, rows));
+    return page_section(
+        "Cost",
+        fmt::format("Rates are a second of processor time. Memory is the peak of a method's set-up above what there "
+                    "was before; the program's own peak was {}. "
+                    "Read, precompute and build are by the clock. What a cache holds already is read and not computed.",
+                    bytes_words(result.peak_memory)),
+        html_table({"method", "integrator", "read", "precompute", "build", "set up (processors)", "render (clock)",
+                    "render (processors)", "memory", "paths/s", "rays/s", "events/s", "shells/s"},
+                   rows));
 }
 
 std::string picture_section(const BenchResult& result)
 {
     const HalfPictures& reference = result.reference.picture;
-    std::string html = "<div class=\"pictures\">\n" + figure(result, shown(reference), fmt::format("Reference: {}", result.reference.name)) + "</div>\n";
+    std::string html = "<div class=\"pictures\">\n" +
+                       figure(result, shown(reference), fmt::format("Reference: {}", result.reference.name)) +
+                       "</div>\n";
     for (const MethodResult& m : result.methods) {
-        html += "<div class=\"pictures\">\n" + figure(result, shown(m.picture), fmt::format("{}: {} samples a pixel", m.name, m.samples));
-        html += figure(result, shown_flip(m.flip), fmt::format("{}: FLIP, mean {}", m.name, flip_words(result, mean_flip(m.flip))));
-        html += figure(result, shown_bias(m.picture, reference), fmt::format("{}: difference over its standard error", m.name)) + "</div>\n";
+        html += "<div class=\"pictures\">\n" +
+                figure(result, shown(m.picture), fmt::format("{}: {} samples a pixel", m.name, m.samples));
+        html += figure(result, shown_flip(m.flip),
+                       fmt::format("{}: FLIP, mean {}", m.name, flip_words(result, mean_flip(m.flip))));
+        html += figure(result, shown_bias(m.picture, reference),
+                       fmt::format("{}: difference over its standard error", m.name)) +
+                "</div>\n";
     }
-    return page_section("Pictures", fmt::format("FLIP: from black (no difference that one would see when flipping between them) to pale yellow (1); that of the two halves of the reference is {:.3f}. "
-                                           "Differences: blue where the picture is darker than the reference, red where it is brighter, in squares of {} pixels, full colour at {} standard errors; "
-                                           "without bias they are pale, without order.", result.reference_flip, bias_square, bias_range),
-                   html);
+    return page_section("Pictures",
+                        fmt::format("FLIP: from black (no difference that one would see when flipping between them) to "
+                                    "pale yellow (1); that of the two halves of the reference is {:.3f}. "
+                                    "Differences: blue where the picture is darker than the reference, red where it is "
+                                    "brighter, in squares of {} pixels, full colour at {} standard errors; "
+                                    "without bias they are pale, without order.",
+                                    result.reference_flip, bias_square, bias_range),
+                        html);
 }
 
 } // namespace
@@ -85,16 +105,22 @@ Plot convergence_plot(const BenchResult& result)
         }
         plot.series.push_back(std::move(line));
     }
-    if (std::isfinite(result.reference_noise.error)) plot.marks.push_back({std::sqrt(std::max(0.0, result.reference_noise.value)), "noise of the reference", true});
+    if (std::isfinite(result.reference_noise.error))
+        plot.marks.push_back({std::sqrt(std::max(0.0, result.reference_noise.value)), "noise of the reference", true});
     return plot;
 }
 
-std::string plot_figure(const BenchResult& result) { return "<div class=\"plots\"><figure>" + svg_of(convergence_plot(result)) + "</figure></div>\n"; }
+std::string plot_figure(const BenchResult& result)
+{
+    return "<div class=\"plots\"><figure>" + svg_of(convergence_plot(result)) + "</figure></div>\n";
+}
 
 std::string page_head(const std::string& title, const std::string& below)
 {
-    return fmt::format("<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-                       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{0}</title>\n<style>{2}</style>\n</head>\n<body>\n<main>\n"
+    return fmt::format("<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n<meta "
+                       "charset=\"utf-8\"/>\n"
+                       "<meta name=\"viewport\" content=\"width=device-width, "
+                       "initial-scale=1\"/>\n<title>{0}</title>\n<style>{2}</style>\n</head>\n<body>\n<main>\n"
                        "<h1>{0}</h1>\n<p class=\"below\">{1}</p>\n",
                        xml_escaped(title), xml_escaped(below), style);
 }
@@ -114,7 +140,8 @@ std::string html_table(const TableRow& head, const std::vector<TableRow>& rows)
 
 std::string page_section(const std::string& title, const std::string& about, const std::string& inside)
 {
-    return fmt::format("<section>\n<h2>{}</h2>\n<p class=\"note\">{}</p>\n{}</section>\n", xml_escaped(title), xml_escaped(about), inside);
+    return fmt::format("<section>\n<h2>{}</h2>\n<p class=\"note\">{}</p>\n{}</section>\n", xml_escaped(title),
+                       xml_escaped(about), inside);
 }
 
 std::string page_end() { return "</main>\n</body>\n</html>\n"; }
@@ -123,8 +150,11 @@ std::string page_of(const BenchResult& result)
 {
     std::string notes;
     for (const std::string& note : result.notes) notes += "<p>" + xml_escaped(note) + "</p>\n";
-    return page_head(result.job.title, scene_words(result) + ". " + machine_words(result.machine, result.processor_share())) + page_section("Error", table_legend, notes + html_table(table_head, table_rows(result)))
-           + page_section("Convergence", plot_legend, plot_figure(result)) + cost_section(result) + picture_section(result) + page_end();
+    return page_head(result.job.title,
+                     scene_words(result) + ". " + machine_words(result.machine, result.processor_share())) +
+           page_section("Error", table_legend, notes + html_table(table_head, table_rows(result))) +
+           page_section("Convergence", plot_legend, plot_figure(result)) + cost_section(result) +
+           picture_section(result) + page_end();
 }
 
 } // namespace scree

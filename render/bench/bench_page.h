@@ -13,7 +13,8 @@ Plot convergence_plot(const BenchResult& result);
 /// It as a part of a page, and what it shows.
 std::string plot_figure(const BenchResult& result);
 inline constexpr const char* plot_legend =
-    "Mean over the pictures of all seeds, less the noise of the reference; below the dotted line, where points are hollow, the reference is not good enough to tell; hollow points on the lower edge came out at 0 or below. "
+    "Mean over the pictures of all seeds, less the noise of the reference; below the dotted line, where points are "
+    "hollow, the reference is not good enough to tell; hollow points on the lower edge came out at 0 or below. "
     "Methods without bias fall along a slope of -1/2; one with bias ends at it.";
 
 /// One page on its own, without scripts: table, plots and pictures. Well-formed XML.

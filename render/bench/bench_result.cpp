@@ -11,7 +11,9 @@ std::optional<Measured> BenchResult::gain(const MethodResult& method) const
     if (ept == methods.end() || !(method.time_to_unit_variance() > 0)) return std::nullopt;
     if (&*ept == &method) return Measured{1, 0};
     const double ratio = ept->time_to_unit_variance() / method.time_to_unit_variance();
-    const auto relative = [](const Measured& m) { return m.value > 0 ? m.error / m.value : std::numeric_limits<double>::infinity(); };
+    const auto relative = [](const Measured& m) {
+        return m.value > 0 ? m.error / m.value : std::numeric_limits<double>::infinity();
+    };
     return Measured{ratio, ratio * std::hypot(relative(ept->estimate.noise), relative(method.estimate.noise))};
 }
 

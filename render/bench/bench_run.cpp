@@ -15,8 +15,12 @@ namespace {
 
 constexpr int levels = 7; // slices double: a picture is looked at after 1/64, 1/32, ... and all of its time
 
-/// Seeds apart from each other and from the one that `scree render` has with the same --seed: which: 0 methods, 1 reference.
-uint64_t seed_of(const BenchJob& job, uint64_t which) { return mix64(mix64(job.scene.options.seed + 0x9e3779b97f4a7c15ull) + which); }
+/// Seeds apart from each other and from the one that `scree render` has with the same --seed: which: 0 methods, 1
+/// reference.
+uint64_t seed_of(const BenchJob& job, uint64_t which)
+{
+    return mix64(mix64(job.scene.options.seed + 0x9e3779b97f4a7c15ull) + which);
+}
 
 std::vector<V3d> means_of(const Film& film)
 {
@@ -43,8 +47,19 @@ ConvergencePoint point_of(const MethodRun& run, const HalfPictures& reference)
 
 MethodResult result_of(const MethodRun& run, std::vector<ConvergencePoint> points, const HalfPictures& reference)
 {
-    MethodResult result{run.name(), run.plan_name(), run.setup_time(), run.memory(), run.grains(), run.warnings(), run.total_time(), run.total_samples(),
-                        run.statistics(), std::move(points), {}, make_halves(run.films()), {}};
+    MethodResult result{run.name(),
+                        run.plan_name(),
+                        run.setup_time(),
+                        run.memory(),
+                        run.grains(),
+                        run.warnings(),
+                        run.total_time(),
+                        run.total_samples(),
+                        run.statistics(),
+                        std::move(points),
+                        {},
+                        make_halves(run.films()),
+                        {}};
     result.estimate = estimate_error(result.picture, reference);
     result.flip = flip_difference(screen_picture(reference), screen_picture(result.picture));
     return result;
@@ -57,7 +72,8 @@ ReferencePicture find_reference(const BenchJob& job, double threads, const Progr
         return read_reference(job.reference, scene.film.width, scene.film.height);
     }
     MethodRun run(job, job.reference_method, seed_of(job, 1), 2, progress); // shares no sample with the methods
-    return render_reference(run, job.folder / "reference.exr", job.scene.options.seed, job.reference_seconds * threads, progress);
+    return render_reference(run, job.folder / "reference.exr", job.scene.options.seed, job.reference_seconds * threads,
+                            progress);
 }
 
 } // namespace
@@ -70,24 +86,32 @@ BenchResult run_bench(const BenchJob& job, const Progress& progress)
     result.reference = find_reference(job, result.machine.threads, progress);
     if (!result.reference.note.empty()) result.notes.push_back(result.reference.note);
     const HalfPictures& reference = result.reference.picture;
-    if (reference.halved) result.reference_flip = mean_flip(flip_difference(screen_picture(reference, reference.a), screen_picture(reference, reference.b)));
+    if (reference.halved)
+        result.reference_flip =
+            mean_flip(flip_difference(screen_picture(reference, reference.a), screen_picture(reference, reference.b)));
 
     std::vector<std::unique_ptr<MethodRun>> runs;
-    for (const BenchMethod& method : job.methods) runs.push_back(std::make_unique<MethodRun>(job, method, seed_of(job, 0), job.seeds, progress));
+    for (const BenchMethod& method : job.methods)
+        runs.push_back(std::make_unique<MethodRun>(job, method, seed_of(job, 0), job.seeds, progress));
     result.scene_hash = runs.front()->scene_hash();
     const std::string& key = result.reference.key;
-    if (!key.empty() && key.rfind(fmt::format("{:016x} ", result.scene_hash), 0) != 0) result.notes.push_back("the reference was rendered of another scene, or of this one before it was changed");
-    if (!reference.has_noise()) result.notes.push_back("nothing is known of the reference's noise: errors hold it too, and no bias can be told");
+    if (!key.empty() && key.rfind(fmt::format("{:016x} ", result.scene_hash), 0) != 0)
+        result.notes.push_back("the reference was rendered of another scene, or of this one before it was changed");
+    if (!reference.has_noise())
+        result.notes.push_back(
+            "nothing is known of the reference's noise: errors hold it too, and no bias can be told");
 
     std::vector<std::vector<ConvergencePoint>> points(runs.size());
-    const double whole = job.seconds * result.machine.threads / static_cast<double>(job.seeds); // processor seconds a picture
+    const double whole =
+        job.seconds * result.machine.threads / static_cast<double>(job.seeds); // processor seconds a picture
     for (int level = 1; level <= levels; ++level) {
         const double until = whole * std::exp2(level - levels);
         std::vector<uint64_t> before;
         for (const auto& run : runs) before.push_back(run->total_samples());
         for (size_t s = 0; s < job.seeds; ++s) {
             for (const auto& run : runs) run->render_until(s, until, progress);
-            progress.update("methods in turns", std::exp2(level - levels) * (0.5 + 0.5 * static_cast<double>(s + 1) / static_cast<double>(job.seeds)));
+            progress.update("methods in turns", std::exp2(level - levels) * (0.5 + 0.5 * static_cast<double>(s + 1) /
+                                                                                       static_cast<double>(job.seeds)));
         }
         for (size_t m = 0; m < runs.size(); ++m) {
             if (runs[m]->total_samples() == before[m]) continue; // not a sample more fits into a slice as short
@@ -97,7 +121,8 @@ BenchResult run_bench(const BenchJob& job, const Progress& progress)
     for (size_t m = 0; m < runs.size(); ++m) {
         result.methods.push_back(result_of(*runs[m], std::move(points[m]), reference));
         result.reference_noise = result.methods.back().estimate.reference_noise;
-        for (ConvergencePoint& point : result.methods.back().points) point.below_reference = reference.has_noise() && point.squared_error.value < result.reference_noise.value;
+        for (ConvergencePoint& point : result.methods.back().points)
+            point.below_reference = reference.has_noise() && point.squared_error.value < result.reference_noise.value;
     }
     result.peak_memory = peak_bytes();
     return result;

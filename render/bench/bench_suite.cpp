@@ -25,7 +25,8 @@ BenchJob read_job(const JsonValue& json, double scale)
     BenchJob job;
     const JsonValue name = object.require("name");
     job.title = name.string();
-    const bool plain = std::ranges::all_of(job.title, [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; });
+    const bool plain =
+        std::ranges::all_of(job.title, [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; });
     if (job.title.empty() || !plain) name.fail("letters, digits, - and _: files are named after it");
     job.scene.scene = object.require("scene").path().lexically_normal();
     if (const auto frame = object.find("frame")) job.frame = static_cast<size_t>(frame->integer(0, 1000000000));
@@ -58,10 +59,12 @@ std::filesystem::path usual_suite()
     if (std::filesystem::exists(name)) return name;
     std::error_code error;
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-    for (std::filesystem::path folder = program.parent_path(); folder.has_relative_path(); folder = folder.parent_path()) {
+    for (std::filesystem::path folder = program.parent_path(); folder.has_relative_path();
+         folder = folder.parent_path()) {
         if (std::filesystem::exists(folder / name)) return folder / name;
     }
-    throw InputError("--suite", "no " + name.string() + " here, nor above the program " + program.string(), "the suite of the source", "run it in the source's folder, or name the file as --suite=FILE");
+    throw InputError("--suite", "no " + name.string() + " here, nor above the program " + program.string(),
+                     "the suite of the source", "run it in the source's folder, or name the file as --suite=FILE");
 }
 
 std::vector<BenchJob> read_suite(const std::filesystem::path& file, double scale)

@@ -26,7 +26,8 @@ std::string flip_words(const BenchResult& result, double flip);
 std::string noise_words(const BenchResult& result);
 /// What was rendered for how long, with the reference.
 std::string scene_words(const BenchResult& result);
-/// Where, when and with what: "Xeon ..., 2 threads on 2 cores, 93 % of a core a thread, 2026-11-22; Scree 0.1.0, build 0123456789abcdef".
+/// Where, when and with what: "Xeon ..., 2 threads on 2 cores, 93 % of a core a thread, 2026-11-22; Scree 0.1.0, build
+/// 0123456789abcdef".
 std::string machine_words(const Machine& machine, double processor_share);
 /// Short numbers: "1.23 M", "45.6 k".
 std::string count_words(double number);

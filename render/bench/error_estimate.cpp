@@ -8,7 +8,8 @@ namespace scree {
 
 namespace {
 
-/// Student's t of 95 in 100 with so many degrees of freedom, by the expansion for many (Fisher, Cornish 1960); of few, that of three.
+/// Student's t of 95 in 100 with so many degrees of freedom, by the expansion for many (Fisher, Cornish 1960); of few,
+/// that of three.
 double student(double freedom)
 {
     constexpr double z = 1.959964, z3 = z * z * z, z5 = z3 * z * z;
@@ -44,7 +45,8 @@ std::vector<V3d> surroundings(const HalfPictures& picture)
             for (int v = std::max(0, y - 1); v <= std::min(picture.height - 1, y + 1); ++v) {
                 for (int u = std::max(0, x - 1); u <= std::min(picture.width - 1, x + 1); ++u) {
                     if (u == x && v == y) continue;
-                    total += picture.whole(static_cast<size_t>(v) * static_cast<size_t>(picture.width) + static_cast<size_t>(u));
+                    total += picture.whole(static_cast<size_t>(v) * static_cast<size_t>(picture.width) +
+                                           static_cast<size_t>(u));
                     ++count;
                 }
             }
@@ -106,8 +108,10 @@ ErrorEstimate estimate_error(const HalfPictures& picture, const HalfPictures& re
         variance += picture.noise(p) + reference.noise(p);
     }
     ErrorEstimate estimate;
-    estimate.noise = relative_mean(weights, picture.has_noise(), [&](size_t p) { return channel_sum(picture.noise(p)); });
-    estimate.reference_noise = relative_mean(weights, reference.has_noise(), [&](size_t p) { return channel_sum(reference.noise(p)); });
+    estimate.noise =
+        relative_mean(weights, picture.has_noise(), [&](size_t p) { return channel_sum(picture.noise(p)); });
+    estimate.reference_noise =
+        relative_mean(weights, reference.has_noise(), [&](size_t p) { return channel_sum(reference.noise(p)); });
     estimate.squared_error = squared_error({whole}, reference);
     estimate.squared_bias = squared_bias(picture, reference, weights);
     estimate.smooth_bias = squared_bias(squares, reference_squares, weights_of(reference_squares));
@@ -115,7 +119,8 @@ ErrorEstimate estimate_error(const HalfPictures& picture, const HalfPictures& re
     for (int c = 0; c < 3; ++c) {
         const double scale = truth[c] * static_cast<double>(picture.size());
         if (!(scale > 0)) continue;
-        const double error = reference.has_noise() ? std::sqrt(variance[c]) / scale : std::numeric_limits<double>::infinity();
+        const double error =
+            reference.has_noise() ? std::sqrt(variance[c]) / scale : std::numeric_limits<double>::infinity();
         estimate.color[static_cast<size_t>(c)] = {difference[c] / scale, error};
     }
     return estimate;
@@ -123,7 +128,8 @@ ErrorEstimate estimate_error(const HalfPictures& picture, const HalfPictures& re
 
 Measured squared_error(const std::vector<std::vector<V3d>>& pictures, const HalfPictures& reference)
 {
-    return relative_mean(weights_of(reference), reference.has_noise(), [&](size_t p) { return squared_error(pictures, reference, p); });
+    return relative_mean(weights_of(reference), reference.has_noise(),
+                         [&](size_t p) { return squared_error(pictures, reference, p); });
 }
 
 Measured part_to_error(const std::vector<std::vector<V3d>>& pictures, const HalfPictures& reference)
@@ -131,10 +137,13 @@ Measured part_to_error(const std::vector<std::vector<V3d>>& pictures, const Half
     const std::vector<double> weights = weights_of(reference);
     const auto noise = [&](size_t p) { return channel_sum(reference.noise(p)); };
     const double variance = relative_mean(weights, true, noise).value;
-    const double squared = relative_mean(weights, true, [&](size_t p) { return squared_error(pictures, reference, p); }).value;
+    const double squared =
+        relative_mean(weights, true, [&](size_t p) { return squared_error(pictures, reference, p); }).value;
     const double part = variance / squared;
     // To first order, what a pixel adds to the difference of the two.
-    Measured result = relative_mean(weights, reference.has_noise(), [&](size_t p) { return (noise(p) - part * squared_error(pictures, reference, p)) / squared; });
+    Measured result = relative_mean(weights, reference.has_noise(), [&](size_t p) {
+        return (noise(p) - part * squared_error(pictures, reference, p)) / squared;
+    });
     result.value = part;
     return result;
 }

@@ -20,7 +20,8 @@ Imf::FrameBuffer frame_buffer(ExrPlanes& picture)
 {
     Imf::FrameBuffer buffer;
     for (auto& [name, plane] : picture.planes) {
-        buffer.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(plane.data()), sizeof(float), sizeof(float) * static_cast<size_t>(picture.width)));
+        buffer.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(plane.data()), sizeof(float),
+                                       sizeof(float) * static_cast<size_t>(picture.width)));
     }
     return buffer;
 }
@@ -63,9 +64,12 @@ ExrPlanes read_exr_planes(const std::filesystem::path& path)
             if (it.channel().xSampling == 1 && it.channel().ySampling == 1) picture.planes[it.name()].resize(pixels);
         }
         for (auto it = header.begin(); it != header.end(); ++it) {
-            if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute())) picture.texts[it.name()] = text->value();
-            if (const auto* number = dynamic_cast<const Imf::DoubleAttribute*>(&it.attribute())) picture.numbers[it.name()] = number->value();
-            if (const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&it.attribute())) picture.numbers[it.name()] = number->value();
+            if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute()))
+                picture.texts[it.name()] = text->value();
+            if (const auto* number = dynamic_cast<const Imf::DoubleAttribute*>(&it.attribute()))
+                picture.numbers[it.name()] = number->value();
+            if (const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&it.attribute()))
+                picture.numbers[it.name()] = number->value();
         }
         in.setFrameBuffer(frame_buffer(picture));
         in.readPixels(0, picture.height - 1);

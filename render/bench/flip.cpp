@@ -11,13 +11,14 @@ namespace {
 // All numbers are those of Andersson et al. 2020, sections 4.1 to 4.3.
 constexpr double exponent_color = 0.7, exponent_feature = 0.5;
 constexpr double knee = 0.4, at_knee = 0.95; // p_c, p_t
-constexpr double feature_width = 0.082;      // degrees: what an edge or point is wide
+constexpr double feature_width = 0.082; // degrees: what an edge or point is wide
 
 /// A contrast sensitivity as a sum of two Gaussians: a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees.
 struct Sensitivity {
     double a1, b1, a2, b2;
 };
-constexpr Sensitivity achromatic{1, 0.0047, 0, 1e-5}, red_green{1, 0.0053, 0, 1e-5}, blue_yellow{34.1, 0.04, 13.5, 0.025};
+constexpr Sensitivity achromatic{1, 0.0047, 0, 1e-5}, red_green{1, 0.0053, 0, 1e-5},
+    blue_yellow{34.1, 0.04, 13.5, 0.025};
 constexpr double widest = 0.04; // the largest b: all kernels reach three of its standard deviations
 
 using Plane = std::vector<double>;
@@ -26,22 +27,27 @@ struct Size {
     int width, height;
 };
 
-/// A picture of one channel under a kernel that is a product of one along x and one along y; beyond the edge it goes on as at it.
+/// A picture of one channel under a kernel that is a product of one along x and one along y; beyond the edge it goes on
+/// as at it.
 Plane convolve(const Plane& plane, Size size, const std::vector<double>& along_x, const std::vector<double>& along_y)
 {
     const int rx = static_cast<int>(along_x.size() / 2), ry = static_cast<int>(along_y.size() / 2);
-    const auto at = [&](int x, int y) { return static_cast<size_t>(y) * static_cast<size_t>(size.width) + static_cast<size_t>(x); };
+    const auto at = [&](int x, int y) {
+        return static_cast<size_t>(y) * static_cast<size_t>(size.width) + static_cast<size_t>(x);
+    };
     Plane rows(plane.size()), result(plane.size());
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x) {
             double sum = 0;
-            for (int k = -rx; k <= rx; ++k) sum += along_x[static_cast<size_t>(k + rx)] * plane[at(std::clamp(x + k, 0, size.width - 1), y)];
+            for (int k = -rx; k <= rx; ++k)
+                sum += along_x[static_cast<size_t>(k + rx)] * plane[at(std::clamp(x + k, 0, size.width - 1), y)];
             rows[at(x, y)] = sum;
         }
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x) {
             double sum = 0;
-            for (int k = -ry; k <= ry; ++k) sum += along_y[static_cast<size_t>(k + ry)] * rows[at(x, std::clamp(y + k, 0, size.height - 1))];
+            for (int k = -ry; k <= ry; ++k)
+                sum += along_y[static_cast<size_t>(k + ry)] * rows[at(x, std::clamp(y + k, 0, size.height - 1))];
             result[at(x, y)] = sum;
         }
     return result;
@@ -69,7 +75,8 @@ Plane seen(const Plane& plane, Size size, const Sensitivity& s, double ppd)
     double weight = 0;
     for (const auto& [a, b] : {std::pair{s.a1, s.b1}, std::pair{s.a2, s.b2}}) {
         if (a == 0) continue;
-        const std::vector<double> gauss = sampled(radius, [&](double k) { return std::exp(-pi * pi * k * k / (ppd * ppd * b)); });
+        const std::vector<double> gauss =
+            sampled(radius, [&](double k) { return std::exp(-pi * pi * k * k / (ppd * ppd * b)); });
         const double scale = a * std::sqrt(pi / b);
         const Plane part = convolve(plane, size, gauss, gauss);
         for (size_t i = 0; i < part.size(); ++i) result[i] += scale * part[i];
@@ -80,7 +87,8 @@ Plane seen(const Plane& plane, Size size, const Sensitivity& s, double ppd)
 }
 
 /// Rec. 709 to CIE XYZ over the white, which is D65 (each channel of white is 1), and back.
-constexpr double to_xyz[3][3] = {{0.4124564, 0.3575761, 0.1804375}, {0.2126729, 0.7151522, 0.0721750}, {0.0193339, 0.1191920, 0.9503041}};
+constexpr double to_xyz[3][3] = {
+    {0.4124564, 0.3575761, 0.1804375}, {0.2126729, 0.7151522, 0.0721750}, {0.0193339, 0.1191920, 0.9503041}};
 
 V3d relative_xyz(const V3d& rgb)
 {
@@ -196,8 +204,10 @@ std::vector<double> flip_difference(const ScreenPicture& reference, const Screen
 {
     const Size size{reference.width, reference.height};
     const Seen r = look_at(reference, pixels_per_degree), t = look_at(test, pixels_per_degree);
-    const Plane r_edges = feature(r.light, size, 1, pixels_per_degree), t_edges = feature(t.light, size, 1, pixels_per_degree);
-    const Plane r_points = feature(r.light, size, 2, pixels_per_degree), t_points = feature(t.light, size, 2, pixels_per_degree);
+    const Plane r_edges = feature(r.light, size, 1, pixels_per_degree),
+                t_edges = feature(t.light, size, 1, pixels_per_degree);
+    const Plane r_points = feature(r.light, size, 2, pixels_per_degree),
+                t_points = feature(t.light, size, 2, pixels_per_degree);
     const double largest = std::pow(hyab(hunt_lab({0, 1, 0}), hunt_lab({0, 0, 1})), exponent_color);
     std::vector<double> map;
     map.reserve(r.colors.size());

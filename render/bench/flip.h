@@ -16,7 +16,8 @@ struct ScreenPicture {
 ///
 /// Andersson et al. 2020, "FLIP: a difference evaluator for alternating images" (HPG), the form for low dynamic range.
 /// pixels_per_degree: of sight; 67 is a 0.7 m wide screen of 3840 pixels, seen from 0.7 m. Both of one size.
-std::vector<double> flip_difference(const ScreenPicture& reference, const ScreenPicture& test, double pixels_per_degree = 67);
+std::vector<double> flip_difference(const ScreenPicture& reference, const ScreenPicture& test,
+                                    double pixels_per_degree = 67);
 
 /// Mean over all pixels.
 double mean_flip(const std::vector<double>& map);

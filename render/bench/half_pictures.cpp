@@ -62,7 +62,8 @@ HalfPictures reduced(const HalfPictures& picture, int side)
     std::vector<double> count(squares, 0.0);
     for (size_t p = 0; p < picture.size(); ++p) {
         const size_t x = p % static_cast<size_t>(picture.width), y = p / static_cast<size_t>(picture.width);
-        const size_t square = y / static_cast<size_t>(side) * static_cast<size_t>(small.width) + x / static_cast<size_t>(side);
+        const size_t square =
+            y / static_cast<size_t>(side) * static_cast<size_t>(small.width) + x / static_cast<size_t>(side);
         small.a[square] += picture.a[p];
         small.b[square] += picture.b[p];
         if (!picture.variance.empty()) small.variance[square] += picture.variance[p];

@@ -6,13 +6,14 @@
 
 namespace scree {
 
-/// A picture as two estimates that share no sample: what differs between them is noise, what they have in common is not.
+/// A picture as two estimates that share no sample: what differs between them is noise, what they have in common is
+/// not.
 struct HalfPictures {
     int width = 0, height = 0;
-    std::vector<V3d> a, b;        ///< mean radiance of each half, rows from the top
-    std::vector<V3d> variance;    ///< of the whole, by the scatter of its samples; empty: not known
-    double share = 0.5;           ///< of the samples that are in a
-    bool halved = true;           ///< false: a and b are the same picture, of which only `variance` knows the noise
+    std::vector<V3d> a, b; ///< mean radiance of each half, rows from the top
+    std::vector<V3d> variance; ///< of the whole, by the scatter of its samples; empty: not known
+    double share = 0.5; ///< of the samples that are in a
+    bool halved = true; ///< false: a and b are the same picture, of which only `variance` knows the noise
 
     size_t size() const { return a.size(); }
     V3d whole(size_t pixel) const { return share * a[pixel] + (1 - share) * b[pixel]; }

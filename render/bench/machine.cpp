@@ -23,7 +23,8 @@ Machine this_machine(int threads)
     cpu_set_t allowed;
     machine.cores = sched_getaffinity(0, sizeof allowed, &allowed) == 0 ? CPU_COUNT(&allowed) : 1;
     machine.threads = threads > 0 ? threads : machine.cores;
-    machine.date = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+    machine.date =
+        fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
     machine.build = build_identity();
     return machine;
 }

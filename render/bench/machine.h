@@ -7,16 +7,17 @@ namespace scree {
 /// Where and when something was measured.
 struct Machine {
     std::string processor; ///< model
-    int cores = 0;         ///< that this program may use
-    int threads = 0;       ///< that it did use
-    std::string date;      ///< 2026-11-22, UTC
-    std::string build;     ///< build_identity()
+    int cores = 0; ///< that this program may use
+    int threads = 0; ///< that it did use
+    std::string date; ///< 2026-11-22, UTC
+    std::string build; ///< build_identity()
 };
 
 /// threads: 0: all cores.
 Machine this_machine(int threads);
 
-/// What tells one build of the program from another: a hash of the running program's file; where that cannot be read, the version.
+/// What tells one build of the program from another: a hash of the running program's file; where that cannot be read,
+/// the version.
 const std::string& build_identity();
 
 } // namespace scree

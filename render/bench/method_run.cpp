@@ -14,7 +14,8 @@ namespace {
 /// Whether a part is made by computing rather than by reading.
 bool is_precomputed(const std::string& part)
 {
-    for (const char* name : {"gsdf", "walk in the packing", "medium of the grains", "shells", "distance", "domain", "fill"}) {
+    for (const char* name :
+         {"gsdf", "walk in the packing", "medium of the grains", "shells", "distance", "domain", "fill"}) {
         if (part.rfind(name, 0) == 0) return true;
     }
     return false;
@@ -24,9 +25,12 @@ SetupTime split(const std::vector<PartReport>& parts, const WorkTime& all)
 {
     SetupTime time;
     for (const PartReport& part : parts) {
-        if (part.part == "acceleration structure") time.build += part.seconds;
-        else if (is_precomputed(part.part)) time.precompute += part.seconds;
-        const bool all_shells = part.built && part.part.rfind("shells", 0) == 0 && part.reason.find(", 0 made now") != std::string::npos;
+        if (part.part == "acceleration structure")
+            time.build += part.seconds;
+        else if (is_precomputed(part.part))
+            time.precompute += part.seconds;
+        const bool all_shells =
+            part.built && part.part.rfind("shells", 0) == 0 && part.reason.find(", 0 made now") != std::string::npos;
         if (all_shells || part.reason.find("from the cache") != std::string::npos) time.cached.push_back(part.part);
     }
     time.read = std::max(0.0, all.wall - time.build - time.precompute);
@@ -36,7 +40,8 @@ SetupTime split(const std::vector<PartReport>& parts, const WorkTime& all)
 
 } // namespace
 
-MethodRun::MethodRun(const BenchJob& job, const BenchMethod& method, uint64_t first_seed, size_t pictures, const Progress& progress)
+MethodRun::MethodRun(const BenchJob& job, const BenchMethod& method, uint64_t first_seed, size_t pictures,
+                     const Progress& progress)
     : name_(method.name), first_seed_(first_seed)
 {
     const MemoryMeter memory;
@@ -44,7 +49,8 @@ MethodRun::MethodRun(const BenchJob& job, const BenchMethod& method, uint64_t fi
     const RenderJob render = render_job_of(job, method);
     builder_ = std::make_unique<WorldBuilder>(load_scene(render));
     if (job.frame >= builder_->frame_count()) {
-        throw InputError("--frame", std::to_string(job.frame), "0 to " + std::to_string(builder_->frame_count() - 1) + ": the frames that the dump has");
+        throw InputError("--frame", std::to_string(job.frame),
+                         "0 to " + std::to_string(builder_->frame_count() - 1) + ": the frames that the dump has");
     }
     std::shared_ptr<const World> world = builder_->build(job.frame, progress);
     if (progress.cancelled()) throw Cancelled();
@@ -54,7 +60,8 @@ MethodRun::MethodRun(const BenchJob& job, const BenchMethod& method, uint64_t fi
     plan_name_ = builder_->plan().name();
     warnings_ = builder_->warnings();
     const IntegratorDescription& integrator = builder_->scene().integrator;
-    if (integrator.kind == IntegratorKind::automatic) name_ = "auto " + accuracy_names[static_cast<size_t>(integrator.accuracy)];
+    if (integrator.kind == IntegratorKind::automatic)
+        name_ = "auto " + accuracy_names[static_cast<size_t>(integrator.accuracy)];
     films_.assign(pictures, empty_film());
     times_.resize(pictures);
 }
@@ -89,7 +96,8 @@ void MethodRun::render_until(size_t picture, double processor_seconds, const Pro
     options.timeout = 0;
     options.spp = done + static_cast<uint32_t>(std::min(more, 1e6));
     const WorkMeter meter;
-    const RenderStatistics statistics = render(setup_->world(), setup_->tracer(), setup_->camera(), setup_->filter(), film, options, progress);
+    const RenderStatistics statistics =
+        render(setup_->world(), setup_->tracer(), setup_->camera(), setup_->filter(), film, options, progress);
     if (statistics.cancelled) throw Cancelled();
     times_[picture] += meter.time();
     samples_drawn_ += options.spp - done;

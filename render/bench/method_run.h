@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/work_meter.h"
 #include "render/bench/bench_job.h"
 #include "render/bench/half_pictures.h"
-#include "base/work_meter.h"
 #include "render/loop/render_setup.h"
 
 #include <memory>
@@ -13,9 +13,9 @@ namespace scree {
 
 /// Where the time before the first sample went, seconds by the clock.
 struct SetupTime {
-    double read = 0;       ///< files: scene, grains, meshes, exemplars, environment maps
+    double read = 0; ///< files: scene, grains, meshes, exemplars, environment maps
     double precompute = 0; ///< scattering of grains, media in their place, shells, distances, checks of what is filled
-    double build = 0;      ///< acceleration structures
+    double build = 0; ///< acceleration structures
     WorkTime all;
     std::vector<std::string> cached; ///< parts that were read from a cache of earlier runs
 };
@@ -24,7 +24,8 @@ struct SetupTime {
 class MethodRun {
 public:
     /// Reads and builds all. first_seed: of picture 0; the others have those after it. Throws InputError, Cancelled.
-    MethodRun(const BenchJob& job, const BenchMethod& method, uint64_t first_seed, size_t pictures, const Progress& progress);
+    MethodRun(const BenchJob& job, const BenchMethod& method, uint64_t first_seed, size_t pictures,
+              const Progress& progress);
 
     const std::string& name() const { return name_; } ///< of auto with its accuracy
     const std::string& plan_name() const { return plan_name_; } ///< what the integrator does, in a word
@@ -38,13 +39,14 @@ public:
     const std::vector<Film>& films() const { return films_; }
     /// Takes the place of a picture that was rendered before with the same seed.
     void restore(size_t picture, Film film) { films_[picture] = std::move(film); }
-    /// Renders picture `picture` on, until its rendering has taken about so many seconds of processors in all, or one sample a
-    /// pixel. How many samples that is, is decided beforehand, so that no sample is left out for taking long.
+    /// Renders picture `picture` on, until its rendering has taken about so many seconds of processors in all, or one
+    /// sample a pixel. How many samples that is, is decided beforehand, so that no sample is left out for taking long.
     /// Throws Cancelled.
     void render_until(size_t picture, double processor_seconds, const Progress& progress);
 
     Film empty_film() const;
-    /// Renders a film on that is not one of the pictures, nor counted: as it is by default, to so many samples a pixel or to an error.
+    /// Renders a film on that is not one of the pictures, nor counted: as it is by default, to so many samples a pixel
+    /// or to an error.
     RenderStatistics render_apart(Film& film, uint64_t seed, uint32_t spp, double error) const;
 
     const WorkTime& time(size_t picture) const { return times_[picture]; }

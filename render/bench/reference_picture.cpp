@@ -19,7 +19,8 @@ constexpr const char* half_names[] = {"a.", "b."};
 
 V3d color_at(const ExrPlanes& file, const std::string& prefix, size_t pixel)
 {
-    return {file.planes.at(prefix + "R")[pixel], file.planes.at(prefix + "G")[pixel], file.planes.at(prefix + "B")[pixel]};
+    return {file.planes.at(prefix + "R")[pixel], file.planes.at(prefix + "G")[pixel],
+            file.planes.at(prefix + "B")[pixel]};
 }
 
 bool has_color(const ExrPlanes& file, const std::string& prefix)
@@ -87,7 +88,8 @@ HalfPictures halves_of(const ExrPlanes& file, const std::filesystem::path& path)
         picture.b.push_back(color_at(file, picture.halved ? "b." : "", p));
         if (varied) picture.variance.push_back(color_at(file, "variance.", p));
         const V3d sum = picture.a.back() + picture.b.back();
-        if (!std::isfinite(sum.x + sum.y + sum.z)) throw InputError(path.string(), "a pixel that is not finite", "a picture to compare with");
+        if (!std::isfinite(sum.x + sum.y + sum.z))
+            throw InputError(path.string(), "a pixel that is not finite", "a picture to compare with");
     }
     return picture;
 }
@@ -95,7 +97,8 @@ HalfPictures halves_of(const ExrPlanes& file, const std::filesystem::path& path)
 void check_size(const ExrPlanes& file, int width, int height, const std::filesystem::path& path)
 {
     if (file.width == width && file.height == height) return;
-    throw InputError(path.string(), fmt::format("a picture of {}x{}", file.width, file.height), fmt::format("one of {}x{}, as the scene has it", width, height),
+    throw InputError(path.string(), fmt::format("a picture of {}x{}", file.width, file.height),
+                     fmt::format("one of {}x{}, as the scene has it", width, height),
                      fmt::format("ask for --size {}x{}", file.width, file.height));
 }
 
@@ -106,23 +109,30 @@ ReferencePicture read_reference(const std::filesystem::path& path, int width, in
     const ExrPlanes file = read_exr_planes(path);
     check_size(file, width, height, path);
     ReferencePicture reference{halves_of(file, path), path.filename().string(), 0, 0, "", ""};
-    if (const auto it = file.numbers.find("processorSeconds"); it != file.numbers.end()) reference.processor_seconds = it->second;
-    if (const auto it = file.numbers.find("spp"); it != file.numbers.end()) reference.samples = static_cast<uint64_t>(it->second);
+    if (const auto it = file.numbers.find("processorSeconds"); it != file.numbers.end())
+        reference.processor_seconds = it->second;
+    if (const auto it = file.numbers.find("spp"); it != file.numbers.end())
+        reference.samples = static_cast<uint64_t>(it->second);
     if (const auto it = file.texts.find("referenceKey"); it != file.texts.end()) reference.key = it->second;
     return reference;
 }
 
-ReferencePicture render_reference(MethodRun& method, const std::filesystem::path& path, uint64_t seed, double processor_seconds, const Progress& progress)
+ReferencePicture render_reference(MethodRun& method, const std::filesystem::path& path, uint64_t seed,
+                                  double processor_seconds, const Progress& progress)
 {
-    const std::string job = fmt::format("{:016x} {} {} ", method.scene_hash(), method.plan_name(), seed), key = job + build_identity();
+    const std::string job = fmt::format("{:016x} {} {} ", method.scene_hash(), method.plan_name(), seed),
+                      key = job + build_identity();
     std::string note;
-    double before = 0, asked = 0; // seconds of processors: taken, and what they were to be (slices end with whole samples)
+    double before = 0,
+           asked = 0; // seconds of processors: taken, and what they were to be (slices end with whole samples)
     if (std::filesystem::exists(path)) {
         try {
             const ExrPlanes file = read_exr_planes(path);
             const bool same_size = file.width == method.films()[0].width() && file.height == method.films()[0].height();
             const auto kept = file.texts.find("referenceKey");
-            if (kept == file.texts.end()) throw InputError(path.string(), "a picture that is no reference of ours", "none, or one that may be replaced", "move it away, or name it with --reference");
+            if (kept == file.texts.end())
+                throw InputError(path.string(), "a picture that is no reference of ours",
+                                 "none, or one that may be replaced", "move it away, or name it with --reference");
             if (same_size && kept->second == key) {
                 for (size_t h = 0; h < 2; ++h) method.restore(h, film_of(file, half_names[h]));
                 before = file.numbers.at("processorSeconds");
@@ -130,8 +140,11 @@ ReferencePicture render_reference(MethodRun& method, const std::filesystem::path
             } else {
                 const std::filesystem::path aside = path.parent_path() / (path.stem().string() + "-before.exr");
                 std::filesystem::rename(path, aside);
-                note = fmt::format("the reference that was there is of another {}: made again; it is kept as {}, which --reference takes",
-                                   same_size && kept->second.rfind(job, 0) == 0 ? "build of scree" : "scene, size, method or seed", aside.string());
+                note = fmt::format("the reference that was there is of another {}: made again; it is kept as {}, which "
+                                   "--reference takes",
+                                   same_size && kept->second.rfind(job, 0) == 0 ? "build of scree"
+                                                                                : "scene, size, method or seed",
+                                   aside.string());
             }
         } catch (const std::out_of_range&) {
             throw InputError(path.string(), "a reference with channels missing", "a whole one", "remove it");
@@ -153,9 +166,14 @@ ReferencePicture render_reference(MethodRun& method, const std::filesystem::path
         for (int slice = 1; slice <= slices; ++slice) { // the halves in turn
             for (size_t h = 0; h < 2; ++h) method.render_until(h, 0.5 * left * slice / slices, progress);
             unsaved = planes_of(method);
-            unsaved->texts = {{"software", "Scree"}, {"version", SCREE_VERSION}, {"integrator", method.plan_name()}, {"referenceKey", key}};
-            unsaved->numbers = {{"processorSeconds", before + method.total_time().processor}, {"secondsAsked", before + left * slice / slices},
-                                {"spp", static_cast<double>(method.total_samples())}, {"shareOfA", make_halves(method.films()).share}};
+            unsaved->texts = {{"software", "Scree"},
+                              {"version", SCREE_VERSION},
+                              {"integrator", method.plan_name()},
+                              {"referenceKey", key}};
+            unsaved->numbers = {{"processorSeconds", before + method.total_time().processor},
+                                {"secondsAsked", before + left * slice / slices},
+                                {"spp", static_cast<double>(method.total_samples())},
+                                {"shareOfA", make_halves(method.films()).share}};
             if (slice == slices || watch.seconds() > saved + each) {
                 save();
                 saved = watch.seconds();
@@ -166,7 +184,8 @@ ReferencePicture render_reference(MethodRun& method, const std::filesystem::path
         save();
         throw;
     }
-    return {make_halves(method.films()), method.name(), before + method.total_time().processor, method.total_samples(), key, note};
+    return {make_halves(method.films()), method.name(), before + method.total_time().processor,
+            method.total_samples(),      key,           note};
 }
 
 } // namespace scree

@@ -17,14 +17,17 @@ void make_folder(const std::filesystem::path& folder, const std::vector<std::str
 {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (!std::filesystem::is_directory(folder)) throw InputError("--output", "'" + folder.string() + "' cannot be made", "a folder that can be written");
-    for (const std::string& name : files) AtomicFile(folder / name); // can be written: better told now than after the work
+    if (!std::filesystem::is_directory(folder))
+        throw InputError("--output", "'" + folder.string() + "' cannot be made", "a folder that can be written");
+    for (const std::string& name : files)
+        AtomicFile(folder / name); // can be written: better told now than after the work
 }
 
 std::string text_of(const std::filesystem::path& file)
 {
     std::ifstream in(file, std::ios::binary);
-    if (!in) throw InputError(file.string(), "a file that cannot be read", "a text with the two marks of `scree bench`");
+    if (!in)
+        throw InputError(file.string(), "a file that cannot be read", "a text with the two marks of `scree bench`");
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
@@ -39,7 +42,8 @@ BenchResult run_and_write(const BenchJob& job, const Progress& progress)
     return result;
 }
 
-void run_suite(const std::vector<BenchJob>& jobs, SuiteResult& suite, const std::filesystem::path& folder, const std::filesystem::path& readme, const Progress& progress)
+void run_suite(const std::vector<BenchJob>& jobs, SuiteResult& suite, const std::filesystem::path& folder,
+               const std::filesystem::path& readme, const Progress& progress)
 {
     make_folder(folder, {"index.html", "README.md", "suite.json"});
     if (!readme.empty()) with_block(text_of(readme), "", readme.string());
@@ -48,16 +52,24 @@ void run_suite(const std::vector<BenchJob>& jobs, SuiteResult& suite, const std:
         job.folder = folder / "details" / job.title;
         progress.update(job.title, static_cast<double>(suite.scenes.size()) / static_cast<double>(jobs.size()));
         BenchResult result = run_and_write(job, progress);
-        result.reference.picture = {result.width(), result.height(), {}, {}, {}, result.reference.picture.share, result.reference.picture.halved}; // shown; only its size is asked for from here on
+        result.reference.picture = {result.width(),
+                                    result.height(),
+                                    {},
+                                    {},
+                                    {},
+                                    result.reference.picture.share,
+                                    result.reference.picture.halved}; // shown; only its size is asked for from here on
         for (MethodResult& m : result.methods) m.picture = {};
         suite.scenes.push_back(std::move(result));
     }
     suite.seconds = watch.seconds();
-    for (const BenchResult& result : suite.scenes) write_whole(folder / (result.job.title + ".svg"), svg_of(convergence_plot(result)));
+    for (const BenchResult& result : suite.scenes)
+        write_whole(folder / (result.job.title + ".svg"), svg_of(convergence_plot(result)));
     write_whole(folder / "suite.json", suite_json(suite));
     write_whole(folder / "index.html", suite_page(suite));
     write_whole(folder / "README.md", "# Time against error\n\n" + suite_markdown(suite, true));
-    if (!readme.empty()) write_whole(readme, with_block(text_of(readme), suite_markdown(suite, false), readme.string()));
+    if (!readme.empty())
+        write_whole(readme, with_block(text_of(readme), suite_markdown(suite, false), readme.string()));
     progress.update("suite", 1);
 }
 

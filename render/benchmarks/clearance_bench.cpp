@@ -55,7 +55,8 @@ Mesh rough(uint32_t n)
     return mesh;
 }
 
-/// Places about so far from the surface: from random places of triangles along their normals. The box's longest edge is about 2.
+/// Places about so far from the surface: from random places of triangles along their normals. The box's longest edge is
+/// about 2.
 std::vector<V3d> places_near(const Mesh& mesh, const Imath::Box3d& box, double from, double to, size_t count)
 {
     std::mt19937_64 random(5);
@@ -82,38 +83,50 @@ void run(const char* name, const Mesh& mesh, bool quick)
     const double seconds = busy_seconds() - start, longest = std::max({box.size().x, box.size().y, box.size().z});
     const TriangleTree exact(view, 1, Progress());
     const double bytes = static_cast<double>(field.bytes()), triangles = static_cast<double>(mesh.triangles.size());
-    fmt::print("{}: {} triangles, {:.2f} s of one core, {:.1f} MB, {:.0f} bytes a triangle with the grid.\n\n", name, mesh.triangles.size(), seconds, bytes / 1e6, bytes / triangles);
-    fmt::print("{:>20} {:>10} {:>10} {:>8} {:>8} {:>8}\n", "distance / box", "ns, walk", "scattered", "mean", "1 %", "least");
+    fmt::print("{}: {} triangles, {:.2f} s of one core, {:.1f} MB, {:.0f} bytes a triangle with the grid.\n\n", name,
+               mesh.triangles.size(), seconds, bytes / 1e6, bytes / triangles);
+    fmt::print("{:>20} {:>10} {:>10} {:>8} {:>8} {:>8}\n", "distance / box", "ns, walk", "scattered", "mean", "1 %",
+               "least");
     const size_t count = quick ? 20000 : 200000;
-    for (const auto& [lo, hi] : {std::pair{1e-6, 1e-5}, {1e-5, 1e-4}, {1e-4, 1e-3}, {1e-3, 3e-3}, {3e-3, 1e-2}, {1e-2, 3e-2}, {3e-2, 0.1}, {0.1, 0.3}}) {
-            std::vector<V3d> places = places_near(mesh, box, lo * longest, hi * longest, count);
-            std::vector<float> ratio;
-            double sum = 0;
-            for (size_t i = 0; i < count; i += 8) {
-                // The tree alone loses no more than its own share.
-                const double d = exact.distance(places[i]);
-                if (!(d > 0)) continue;
-                ratio.push_back(static_cast<float>(field.clearance(places[i]) / d));
-                sum += double{ratio.back()};
+    for (const auto& [lo, hi] : {std::pair{1e-6, 1e-5},
+                                 {1e-5, 1e-4},
+                                 {1e-4, 1e-3},
+                                 {1e-3, 3e-3},
+                                 {3e-3, 1e-2},
+                                 {1e-2, 3e-2},
+                                 {3e-2, 0.1},
+                                 {0.1, 0.3}}) {
+        std::vector<V3d> places = places_near(mesh, box, lo * longest, hi * longest, count);
+        std::vector<float> ratio;
+        double sum = 0;
+        for (size_t i = 0; i < count; i += 8) {
+            // The tree alone loses no more than its own share.
+            const double d = exact.distance(places[i]);
+            if (!(d > 0)) continue;
+            ratio.push_back(static_cast<float>(field.clearance(places[i]) / d));
+            sum += double{ratio.back()};
+        }
+        std::ranges::sort(ratio);
+        const auto time = [&] {
+            double best = 1e9, check = 0;
+            for (int pass = 0; pass < 3; ++pass) {
+                const double begin = busy_seconds();
+                for (const V3d& p : places) check += field.clearance(p);
+                best = std::min(best, busy_seconds() - begin);
             }
-            std::ranges::sort(ratio);
-            const auto time = [&] {
-                double best = 1e9, check = 0;
-                for (int pass = 0; pass < 3; ++pass) {
-                    const double begin = busy_seconds();
-                    for (const V3d& p : places) check += field.clearance(p);
-                    best = std::min(best, busy_seconds() - begin);
-                }
-                return check < 0 ? 0 : best * 1e9 / static_cast<double>(count);
-            };
-            const double scattered = time();
-            // Sixteen steps each in a small neighbourhood, as in a walk; the first ones find nothing in the caches.
-            std::mt19937_64 random(9);
-            std::uniform_real_distribution<double> uniform(-0.5, 0.5);
-            for (size_t i = 0; i < count; ++i)
-                if (i % 16) places[i] = places[i - i % 16] + V3d(uniform(random), uniform(random), uniform(random)) * (lo * longest);
-            const double local = time();
-            fmt::print("{:>9.1e}..{:>9.1e} {:10.1f} {:10.1f} {:8.4f} {:8.4f} {:8.4f}\n", lo, hi, local, scattered, sum / static_cast<double>(ratio.size()), ratio[ratio.size() / 100], ratio[0]);
+            return check < 0 ? 0 : best * 1e9 / static_cast<double>(count);
+        };
+        const double scattered = time();
+        // Sixteen steps each in a small neighbourhood, as in a walk; the first ones find nothing in the caches.
+        std::mt19937_64 random(9);
+        std::uniform_real_distribution<double> uniform(-0.5, 0.5);
+        for (size_t i = 0; i < count; ++i)
+            if (i % 16)
+                places[i] =
+                    places[i - i % 16] + V3d(uniform(random), uniform(random), uniform(random)) * (lo * longest);
+        const double local = time();
+        fmt::print("{:>9.1e}..{:>9.1e} {:10.1f} {:10.1f} {:8.4f} {:8.4f} {:8.4f}\n", lo, hi, local, scattered,
+                   sum / static_cast<double>(ratio.size()), ratio[ratio.size() / 100], ratio[0]);
     }
     fmt::print("\n");
 }

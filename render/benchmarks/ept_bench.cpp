@@ -1,11 +1,11 @@
-// Explicit path tracing against Embree alone: how many segments of light paths a second, shading and all, beside the bare
-// nearest-hit query over the very same segments, in one process and on one thread.
+// Explicit path tracing against Embree alone: how many segments of light paths a second, shading and all, beside the
+// bare nearest-hit query over the very same segments, in one process and on one thread.
 //
 // usage: ept_bench [--quick]     (--quick: 10^5 grains and fewer paths)
 
+#include "render/integrators/path_tracer.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
-#include "render/integrators/path_tracer.h"
 
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
@@ -29,7 +29,8 @@ struct Segment {
 /// The same grains for Embree alone: bare sphere points, or one instance of the mesh a grain.
 class BareScene {
 public:
-    BareScene(const TestScene& scene, const TriangleMesh* mesh) : device_(scene.device().get()), scene_(rtcNewScene(device_))
+    BareScene(const TestScene& scene, const TriangleMesh* mesh)
+        : device_(scene.device().get()), scene_(rtcNewScene(device_))
     {
         const GrainStore& grains = scene.world().grains;
         if (!mesh) {
@@ -40,9 +41,11 @@ public:
         } else {
             mesh_scene_ = rtcNewScene(device_);
             RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-            auto* vertices = static_cast<V3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(V3f), mesh->positions.size()));
+            auto* vertices = static_cast<V3f*>(rtcSetNewGeometryBuffer(
+                geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(V3f), mesh->positions.size()));
             for (size_t i = 0; i < mesh->positions.size(); ++i) vertices[i] = V3f(mesh->positions[i]);
-            auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh->triangles.size()));
+            auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
+                geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh->triangles.size()));
             std::memcpy(indices, mesh->triangles.data(), 12 * mesh->triangles.size());
             add(mesh_scene_, geometry);
             rtcCommitScene(mesh_scene_);
@@ -65,7 +68,8 @@ public:
             RTCIntersectContext context;
             rtcInitIntersectContext(&context);
             RTCRayHit ray{};
-            ray.ray = {s.o.x, s.o.y, s.o.z, skip, s.d.x, s.d.y, s.d.z, 0, std::numeric_limits<float>::infinity(), ~0u, 0, 0};
+            ray.ray = {s.o.x, s.o.y, s.o.z, skip, s.d.x, s.d.y, s.d.z, 0, std::numeric_limits<float>::infinity(),
+                       ~0u,   0,     0};
             ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
             ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
             rtcIntersect1(scene_, &context, &ray);
@@ -123,7 +127,8 @@ void run(const char* name, uint64_t count, const std::vector<PackedSphere>& sphe
     scene.add_grains(spheres, type);
     scene.add_constant_light(1);
     scene.build();
-    const double bytes = static_cast<double>(scene.device().bytes() - before) + static_cast<double>(scene.world().grains.bytes());
+    const double bytes =
+        static_cast<double>(scene.device().bytes() - before) + static_cast<double>(scene.world().grains.bytes());
     const double per_grain = bytes / static_cast<double>(count);
     const BareScene bare(scene, mesh ? &*mesh : nullptr);
     const auto skip = static_cast<float>(1e-4 * scene.world().grains.radius(0));
@@ -155,7 +160,8 @@ void run(const char* name, uint64_t count, const std::vector<PackedSphere>& sphe
         bare_seconds += bare.walk(recorded, skip);
         bare_segments += recorded.size();
     }
-    const double ept = static_cast<double>(segments) / ept_seconds * 1e-6, alone = static_cast<double>(bare_segments) / bare_seconds * 1e-6;
+    const double ept = static_cast<double>(segments) / ept_seconds * 1e-6,
+                 alone = static_cast<double>(bare_segments) / bare_seconds * 1e-6;
     fmt::print("{:<24} {:>9} {:>10.1f} {:>9.3f} {:>9.3f} {:>8.0f} % {:>10.1f}\n", name, count,
                static_cast<double>(segments) / static_cast<double>(paths), ept, alone, 100 * ept / alone, per_grain);
     std::fflush(stdout);
@@ -172,8 +178,10 @@ int main(int argc, char** argv)
     const auto tile = push_apart(12500, fraction, 0.8, 0.05, 1);
     const double edge = packing_edge(tile, fraction);
     fmt::print("Explicit path tracing on one thread, million segments a second, beside Embree's bare nearest hit\n");
-    fmt::print("(spheres: sphere points; meshes: an instance a grain) over the same segments. Bed of fraction {}.\n\n", fraction);
-    fmt::print("{:<24} {:>9} {:>10} {:>9} {:>9} {:>10} {:>10}\n", "grains", "number", "seg/path", "EPT", "bare", "EPT/bare", "bytes/grain");
+    fmt::print("(spheres: sphere points; meshes: an instance a grain) over the same segments. Bed of fraction {}.\n\n",
+               fraction);
+    fmt::print("{:<24} {:>9} {:>10} {:>9} {:>9} {:>10} {:>10}\n", "grains", "number", "seg/path", "EPT", "bare",
+               "EPT/bare", "bytes/grain");
     for (const uint64_t count : {uint64_t{100000}, uint64_t{1000000}}) {
         if (quick && count > 100000) break;
         const auto spheres = repeat_packing(tile, edge, count > 100000 ? 5 : 2, count);

@@ -1,13 +1,15 @@
-// What `scree render --error` claims against what is true, and its time against that of as many samples everywhere, on the scenes of a suite.
-// usage: error_bench [suite, default examples/bench/suite.json] [errors, default 0.05,0.02] [seconds of a scene's reference, default 20]
-//                    [pictures of each error, default 2] [size, of the suite's, default 0.5] [only the scene of this name]
+// What `scree render --error` claims against what is true, and its time against that of as many samples everywhere, on
+// the scenes of a suite. usage: error_bench [suite, default examples/bench/suite.json] [errors, default 0.05,0.02]
+// [seconds of a scene's reference, default 20]
+//                    [pictures of each error, default 2] [size, of the suite's, default 0.5] [only the scene of this
+//                    name]
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/text_table.h"
 #include "render/bench/bench_suite.h"
 #include "render/bench/bench_words.h"
 #include "render/bench/method_run.h"
-#include "base/text_table.h"
 
 #include <fmt/format.h>
 
@@ -39,7 +41,8 @@ struct Adaptive {
 /// "4.8 +- 0.2 %" of a squared number.
 std::string error_of(const Measured& squared, const Measured& reference_noise)
 {
-    if (!(squared.value > squared.error)) return fmt::format("< {} (ref.)", root_words(std::max(squared.high(), reference_noise.value)));
+    if (!(squared.value > squared.error))
+        return fmt::format("< {} (ref.)", root_words(std::max(squared.high(), reference_noise.value)));
     const double root = std::sqrt(squared.value);
     return fmt::format("{:.2f} +- {:.2f} %", 100 * root, 50 * squared.error / root);
 }
@@ -49,9 +52,18 @@ Row row_of(const std::string& name, const Adaptive& adaptive, const MethodRun& u
 {
     const auto n = static_cast<double>(adaptive.pictures.size());
     const HalfPictures reference = make_halves(uniform.films());
-    const Measured squared = squared_error(adaptive.pictures, reference), noise = estimate_error(reference, reference).noise;
-    Row row{name, fmt::format("{:.3g} %", 100 * adaptive.asked), error_of(squared, noise), root_words(adaptive.claim / n), root_words(noise.value), fmt::format("{:.0f}", adaptive.samples / n), "-",
-            fmt::format("{:.2f}", adaptive.seconds / n), "-", "-"};
+    const Measured squared = squared_error(adaptive.pictures, reference),
+                   noise = estimate_error(reference, reference).noise;
+    Row row{name,
+            fmt::format("{:.3g} %", 100 * adaptive.asked),
+            error_of(squared, noise),
+            root_words(adaptive.claim / n),
+            root_words(noise.value),
+            fmt::format("{:.0f}", adaptive.samples / n),
+            "-",
+            fmt::format("{:.2f}", adaptive.seconds / n),
+            "-",
+            "-"};
     if (!(squared.value > squared.error) || !(noise.value > 0)) return row;
     const Measured part = part_to_error(adaptive.pictures, reference);
     const double seconds = uniform.total_time().processor, ratio = seconds * n / adaptive.seconds;
@@ -71,10 +83,13 @@ try {
     for (std::string word; std::getline(list, word, ',');) errors.push_back(std::stod(word));
     const double reference_seconds = std::stod(argument(3, "20")), size = std::stod(argument(5, "0.5"));
     const size_t pictures = std::stoul(argument(4, "2"));
-    std::vector<Row> rows{{"scene", "asked", "true", "claimed", "reference", "samples", "uniform", "seconds", "uniform", "ratio"}};
+    std::vector<Row> rows{
+        {"scene", "asked", "true", "claimed", "reference", "samples", "uniform", "seconds", "uniform", "ratio"}};
     for (BenchJob job : read_suite(argument(1, "examples/bench/suite.json"), 1)) {
         if (argc > 6 && job.title != argv[6]) continue;
-        if (job.scene.size) job.scene.size = std::pair(static_cast<int>(job.scene.size->first * size), static_cast<int>(job.scene.size->second * size));
+        if (job.scene.size)
+            job.scene.size = std::pair(static_cast<int>(job.scene.size->first * size),
+                                       static_cast<int>(job.scene.size->second * size));
         MethodRun run(job, {"as it is", std::nullopt, std::nullopt}, mix64(1000), 2, Progress());
         std::vector<Adaptive> adaptives;
         for (const double error : errors) adaptives.push_back({error, 0, 0, 0, {}});
@@ -90,8 +105,11 @@ try {
         for (const Adaptive& adaptive : adaptives) rows.push_back(row_of(job.title, adaptive, run));
         fmt::print(stderr, "{}\n", job.title);
     }
-    fmt::print("\nErrors: root of the mean squared relative error; true: of one picture against the uniform ones, less their noise (reference), with a standard error that holds it. Samples: a pixel.\n"
-               "Seconds: of processors. Uniform: with as many samples everywhere, to the same true error. (ref.): no more can be told with this reference.\n\n{}", text_table(rows));
+    fmt::print("\nErrors: root of the mean squared relative error; true: of one picture against the uniform ones, less "
+               "their noise (reference), with a standard error that holds it. Samples: a pixel.\n"
+               "Seconds: of processors. Uniform: with as many samples everywhere, to the same true error. (ref.): no "
+               "more can be told with this reference.\n\n{}",
+               text_table(rows));
     return 0;
 } catch (const scree::InputError& error) {
     fmt::print(stderr, "{}\n", error.what());

@@ -46,7 +46,8 @@ void add_type_and_sky(World& world)
     world.lights = LightSet({sky}, 1.0);
 }
 
-World fill_world(const std::shared_ptr<const Domain>& domain, const std::shared_ptr<const PackingTile>& tile, double radius)
+World fill_world(const std::shared_ptr<const Domain>& domain, const std::shared_ptr<const PackingTile>& tile,
+                 double radius)
 {
     World world;
     const auto fill = std::make_shared<const ProceduralFill>(domain, tile, FillOptions{radius, 0});
@@ -59,13 +60,15 @@ World fill_world(const std::shared_ptr<const Domain>& domain, const std::shared_
 World listed_world(const ProceduralFill& fill)
 {
     World world;
-    list_fill(fill, uint64_t{1} << 40, [&](const ParticleFrame& frame) {
-        for (size_t i = 0; i < frame.size(); ++i) {
-            const V3f p(frame.position[i]);
-            world.grains.spheres.push_back({p.x, p.y, p.z, frame.radius[i]});
-            world.grains.ids.push_back(frame.id[i]);
-        }
-    }, {});
+    list_fill(fill, uint64_t{1} << 40,
+              [&](const ParticleFrame& frame) {
+                  for (size_t i = 0; i < frame.size(); ++i) {
+                      const V3f p(frame.position[i]);
+                      world.grains.spheres.push_back({p.x, p.y, p.z, frame.radius[i]});
+                      world.grains.ids.push_back(frame.id[i]);
+                  }
+              },
+              {});
     world.grains.type_codes.assign(world.grains.spheres.size(), 0);
     world.grains.analytic_count = world.grains.size();
     world.grains.spheres.push_back({});
@@ -76,8 +79,8 @@ World listed_world(const ProceduralFill& fill)
 }
 
 struct Cost {
-    double first = 0;    ///< microseconds a ray from outside to its first hit
-    double segment = 0;  ///< microseconds a segment of a path among the grains
+    double first = 0; ///< microseconds a ray from outside to its first hit
+    double segment = 0; ///< microseconds a segment of a path among the grains
     double segments = 0; ///< a path
     double radiance = 0;
 };
@@ -125,10 +128,12 @@ void run(bool quick)
     const auto device = std::make_shared<EmbreeDevice>();
     const auto domain = std::make_shared<const Domain>(icosphere(5), "ball");
     const uint32_t rays = quick ? 20000 : 100000;
-    fmt::print("A ball filled from a tile of 2,000 spheres in two variants, traced on one thread; paths among diffuse grains of\n"
-               "reflectance 0.5 under a white sky. Microseconds; the list is of the same spheres where they are few enough.\n\n");
-    fmt::print("{:>8} {:>10} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>10} {:>10} {:>8}\n", "fraction", "grains", "set-up s", "resident", "first hit",
-               "segment", "segments", "radiance", "list: hit", "segment", "ratio");
+    fmt::print("A ball filled from a tile of 2,000 spheres in two variants, traced on one thread; paths among diffuse "
+               "grains of\n"
+               "reflectance 0.5 under a white sky. Microseconds; the list is of the same spheres where they are few "
+               "enough.\n\n");
+    fmt::print("{:>8} {:>10} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>10} {:>10} {:>8}\n", "fraction", "grains",
+               "set-up s", "resident", "first hit", "segment", "segments", "radiance", "list: hit", "segment", "ratio");
     for (const double fraction : {0.05, 0.5}) {
         const auto tile = tile_of(fraction);
         for (const double count : {1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9}) {
@@ -138,8 +143,9 @@ void run(bool quick)
             const Tracer tracer(device, world);
             const double setup = seconds_since(start);
             const Cost cost = walk(world, tracer, rays);
-            fmt::print("{:8} {:10.2e} {:8.2f} {:6.0f} MB {:9.2f} {:9.2f} {:9.1f} {:9.4f}", fraction, world.fill->fill().expected_count(), setup, resident(),
-                       cost.first, cost.segment, cost.segments, cost.radiance);
+            fmt::print("{:8} {:10.2e} {:8.2f} {:6.0f} MB {:9.2f} {:9.2f} {:9.1f} {:9.4f}", fraction,
+                       world.fill->fill().expected_count(), setup, resident(), cost.first, cost.segment, cost.segments,
+                       cost.radiance);
             if (count <= (quick ? 1e5 : 1e6)) {
                 const World list = listed_world(world.fill->fill());
                 const Tracer list_tracer(device, list);

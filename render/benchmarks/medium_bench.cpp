@@ -22,7 +22,8 @@ double busy_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SE
 
 constexpr int size = 256;
 
-/// Octaves of noise under a falloff towards the sides of the cube -1..1: about a third of the voxels hold density, in 0..1.
+/// Octaves of noise under a falloff towards the sides of the cube -1..1: about a third of the voxels hold density, in
+/// 0..1.
 openvdb::FloatGrid::Ptr make_cloud()
 {
     NoiseOptions options;
@@ -47,7 +48,9 @@ openvdb::FloatGrid::Ptr make_cloud()
     for (int x = 0; x < size; ++x)
         for (int y = 0; y < size; ++y)
             for (int z = 0; z < size; ++z)
-                if (const float v = values[(static_cast<size_t>(x) * size + static_cast<size_t>(y)) * size + static_cast<size_t>(z)]; v > 0)
+                if (const float v = values[(static_cast<size_t>(x) * size + static_cast<size_t>(y)) * size +
+                                           static_cast<size_t>(z)];
+                    v > 0)
                     accessor.setValue(openvdb::Coord(x - size / 2, y - size / 2, z - size / 2), v);
     return grid;
 }
@@ -69,7 +72,8 @@ Ray draw_ray(Sampler& sampler)
 
 V3d scatter(const V3d& d, double g, Sampler& sampler)
 {
-    const double cosine = sample_henyey_greenstein(g, sampler.next()), phi = 2 * pi * sampler.next(), sine = safe_sqrt(1 - cosine * cosine);
+    const double cosine = sample_henyey_greenstein(g, sampler.next()), phi = 2 * pi * sampler.next(),
+                 sine = safe_sqrt(1 - cosine * cosine);
     return Frame(d).to_world({sine * std::cos(phi), sine * std::sin(phi), cosine}).normalized();
 }
 
@@ -88,7 +92,8 @@ Rate walk(const GridMedium& medium, double g, uint32_t paths)
         Ray ray = draw_ray(sampler);
         SpectralState state;
         for (;;) {
-            const MediumEvent event = medium.event(ray.o, ray.d, 0, std::numeric_limits<double>::infinity(), state, sampler);
+            const MediumEvent event =
+                medium.event(ray.o, ray.d, 0, std::numeric_limits<double>::infinity(), state, sampler);
             if (!event.scattered) break;
             ++events;
             ray.o += ray.d * event.t;
@@ -128,8 +133,9 @@ Rate trace(const World& world, const Tracer& tracer, double distance, uint32_t p
 /// A sphere of optical radius 50.
 void run_sphere(bool quick)
 {
-    fmt::print("A sphere of optical radius 50 and 20,480 triangles, whole paths; one thread. Millions of events a second.\n\n{:>6} {:>8} {:>14} {:>10} {:>12} {:>10}\n", "g", "albedo", "constant light",
-               "a path", "sun and sky", "a path");
+    fmt::print("A sphere of optical radius 50 and 20,480 triangles, whole paths; one thread. Millions of events a "
+               "second.\n\n{:>6} {:>8} {:>14} {:>10} {:>12} {:>10}\n",
+               "g", "albedo", "constant light", "a path", "sun and sky", "a path");
     for (const auto& [g, albedo] : {std::pair{0.0, 1.0f}, {0.7, 1.0f}, {0.7, 0.99f}}) {
         TestScene constant, sunny;
         for (TestScene* scene : {&constant, &sunny}) {
@@ -145,8 +151,10 @@ void run_sphere(bool quick)
         constant.build();
         sunny.build();
         const uint32_t paths = quick ? 2000 : 20000;
-        const Rate plain = trace(constant.world(), constant.tracer(), 3, paths), lit = trace(sunny.world(), sunny.tracer(), 3, paths);
-        fmt::print("{:6} {:8} {:14.2f} {:10.1f} {:12.2f} {:10.1f}\n", g, albedo, plain.events / 1e6, plain.per_path, lit.events / 1e6, lit.per_path);
+        const Rate plain = trace(constant.world(), constant.tracer(), 3, paths),
+                   lit = trace(sunny.world(), sunny.tracer(), 3, paths);
+        fmt::print("{:6} {:8} {:14.2f} {:10.1f} {:12.2f} {:10.1f}\n", g, albedo, plain.events / 1e6, plain.per_path,
+                   lit.events / 1e6, lit.per_path);
     }
     fmt::print("\n");
 }
@@ -157,8 +165,10 @@ void run(bool quick)
     const openvdb::FloatGrid::Ptr cloud = make_cloud();
     fmt::print("A cloud of {}^3 voxels, {:.0f} % of them not empty, in a cube of side 2; one thread, best of {} runs.\n"
                "Lossless walks until they leave; transmittances from outside to outside. Millions a second.\n\n",
-               size, 100 * static_cast<double>(cloud->activeVoxelCount()) / (double{size} * size * size), quick ? 1 : 3);
-    fmt::print("{:>8} {:>9} {:>10} {:>14} {:>12} {:>14} {:>12} {:>8}\n", "sigma_t", "set-up s", "memory MB", "events, g=0", "a path", "events, g=.85", "a path", "T");
+               size, 100 * static_cast<double>(cloud->activeVoxelCount()) / (double{size} * size * size),
+               quick ? 1 : 3);
+    fmt::print("{:>8} {:>9} {:>10} {:>14} {:>12} {:>14} {:>12} {:>8}\n", "sigma_t", "set-up s", "memory MB",
+               "events, g=0", "a path", "events, g=.85", "a path", "T");
     for (const double sigma : {1.0, 10.0, 100.0, 1000.0}) {
         MediumGrids grids;
         grids.density = cloud;
@@ -176,8 +186,9 @@ void run(bool quick)
             forward = {std::max(forward.events, b.events), b.per_path};
             shadows = std::max(shadows, transmittances(medium, quick ? 50000 : 300000, mean));
         }
-        fmt::print("{:8} {:9.2f} {:10.1f} {:14.2f} {:12.2f} {:14.2f} {:12.2f} {:8.2f}   mean T {:.4f}\n", sigma, setup, static_cast<double>(medium.bytes()) / 1e6, isotropic.events / 1e6,
-                   isotropic.per_path, forward.events / 1e6, forward.per_path, shadows / 1e6, mean);
+        fmt::print("{:8} {:9.2f} {:10.1f} {:14.2f} {:12.2f} {:14.2f} {:12.2f} {:8.2f}   mean T {:.4f}\n", sigma, setup,
+                   static_cast<double>(medium.bytes()) / 1e6, isotropic.events / 1e6, isotropic.per_path,
+                   forward.events / 1e6, forward.per_path, shadows / 1e6, mean);
     }
 }
 

@@ -1,5 +1,6 @@
-// What a grain costs in memory: resident bytes of the grain store and of Embree's structure over it, measured as the growth
-// of the process, for 10^5 to 10^7 spheres on a jittered lattice (Embree's own monitor counts its build memory twice).
+// What a grain costs in memory: resident bytes of the grain store and of Embree's structure over it, measured as the
+// growth of the process, for 10^5 to 10^7 spheres on a jittered lattice (Embree's own monitor counts its build memory
+// twice).
 //
 // usage: memory_bench [largest count]
 
@@ -38,9 +39,11 @@ void run(uint64_t count)
     grains.analytic_count = static_cast<uint32_t>(count);
     for (uint64_t i = 0; i < count; ++i) {
         const auto place = [&](uint64_t cell, uint64_t axis) {
-            return static_cast<float>((static_cast<double>(cell) + 0.1 * unit_double(hash_index(i, 1, axis))) * scale - 1);
+            return static_cast<float>((static_cast<double>(cell) + 0.1 * unit_double(hash_index(i, 1, axis))) * scale -
+                                      1);
         };
-        grains.spheres.push_back({place(i % edge, 0), place(i / edge % edge, 1), place(i / edge / edge, 2), static_cast<float>(0.45 * scale)});
+        grains.spheres.push_back({place(i % edge, 0), place(i / edge % edge, 1), place(i / edge / edge, 2),
+                                  static_cast<float>(0.45 * scale)});
     }
     grains.spheres.push_back({});
     const double stored = used_bytes();
@@ -49,7 +52,8 @@ void run(uint64_t count)
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const double built = used_bytes();
     const auto n = static_cast<double>(count);
-    fmt::print("{:>10} {:>12.1f} {:>12.1f} {:>12.1f} {:>14.2f}\n", count, (stored - before) / n, (built - stored) / n, (built - before) / n, seconds);
+    fmt::print("{:>10} {:>12.1f} {:>12.1f} {:>12.1f} {:>14.2f}\n", count, (stored - before) / n, (built - stored) / n,
+               (built - before) / n, seconds);
 }
 
 } // namespace
@@ -58,7 +62,8 @@ void run(uint64_t count)
 int main(int argc, char** argv)
 {
     const uint64_t largest = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 10000000;
-    fmt::print("resident bytes a grain\n{:>10} {:>12} {:>12} {:>12} {:>14}\n", "grains", "store", "Embree", "in all", "build seconds");
+    fmt::print("resident bytes a grain\n{:>10} {:>12} {:>12} {:>12} {:>14}\n", "grains", "store", "Embree", "in all",
+               "build seconds");
     for (uint64_t n = 100000; n <= largest; n *= 10) scree::run(n);
     return 0;
 }

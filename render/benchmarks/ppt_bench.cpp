@@ -1,9 +1,9 @@
 // Proxy path tracing against explicit path tracing on packed beds under sun and sky: time x variance of a pixel.
 //
-// A path through smooth glass as it is cannot sample the sun: it finds it by chance, or brings nothing. Its variance is then the
-// sun's radiance times the mean, and so many paths would be needed to see it that it is measured under a sun of ten times the
-// diameter and a hundredth of the radiance, and counted a hundredfold.
-// usage: ppt_bench [GSDF error, default 0.02]
+// A path through smooth glass as it is cannot sample the sun: it finds it by chance, or brings nothing. Its variance is
+// then the sun's radiance times the mean, and so many paths would be needed to see it that it is measured under a sun
+// of ten times the diameter and a hundredth of the radiance, and counted a hundredfold. usage: ppt_bench [GSDF error,
+// default 0.02]
 
 #include "base/warp.h"
 #include "tests/builders/grain_beds.h"
@@ -18,7 +18,7 @@ namespace {
 using namespace scree;
 
 struct Cost {
-    double seconds = 0;  // of one path
+    double seconds = 0; // of one path
     double variance = 0; // of one path of a pixel
     double mean = 0;
 };
@@ -40,7 +40,8 @@ Cost measure(const TestScene& bed, uint32_t explicit_grains, double seconds)
             const V3d o(1.2, -2.2, 1.8), target = 0.7 * V3d(u1 - 0.5, u2 - 0.5, 0.6);
             for (uint32_t i = 0; i < 8; ++i, ++paths) {
                 Sampler sampler(8, ray, round, i);
-                pixels[ray].add(luminance(trace_path(bed.world(), bed.tracer(), o, (target - o).normalized(), sampler, options).radiance));
+                pixels[ray].add(luminance(
+                    trace_path(bed.world(), bed.tracer(), o, (target - o).normalized(), sampler, options).radiance));
             }
         }
         spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -59,8 +60,10 @@ int main(int argc, char** argv)
 {
     const double error = argc > 1 ? std::atof(argv[1]) : 0.02;
     flush_subnormals();
-    fmt::print("beds of 10,000 grains, f 0.6, under a sun of 0.53 degrees and a sky; time x variance of EPT over that of PPT (larger is better)\n");
-    fmt::print("{:20} {:>10} {:>10} {:>10} {:>10} {:>12} {:>14}\n", "grains", "EPT us", "PPT us", "EPT var", "PPT var", "EPT/PPT", "1 as it is");
+    fmt::print("beds of 10,000 grains, f 0.6, under a sun of 0.53 degrees and a sky; time x variance of EPT over that "
+               "of PPT (larger is better)\n");
+    fmt::print("{:20} {:>10} {:>10} {:>10} {:>10} {:>12} {:>14}\n", "grains", "EPT us", "PPT us", "EPT var", "PPT var",
+               "EPT/PPT", "1 as it is");
     for (const BedGrain& grain : bed_grains(error)) {
         const bool by_chance = grain.material.is_delta();
         const auto bed = make_bed_under_sun(grain, 0.6, 10000, 0.53), hazy = make_bed_under_sun(grain, 0.6, 10000, 5.3);
@@ -75,8 +78,9 @@ int main(int argc, char** argv)
             first.variance *= 100;
         }
         const double base = ept.seconds * ept.variance;
-        fmt::print("{:20} {:10.2f} {:10.2f} {:10.3g} {:10.3g} {:12.1f} {:14.1f}\n", grain.name, 1e6 * ept.seconds, 1e6 * ppt.seconds, ept.variance, ppt.variance,
-                   base / (ppt.seconds * ppt.variance), base / (first.seconds * first.variance));
+        fmt::print("{:20} {:10.2f} {:10.2f} {:10.3g} {:10.3g} {:12.1f} {:14.1f}\n", grain.name, 1e6 * ept.seconds,
+                   1e6 * ppt.seconds, ept.variance, ppt.variance, base / (ppt.seconds * ppt.variance),
+                   base / (first.seconds * first.variance));
         std::fflush(stdout);
     }
     return 0;

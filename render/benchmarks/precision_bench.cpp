@@ -1,5 +1,6 @@
-// How far apart two renders of the same scene are, pixel by pixel: the tracer in single precision (the default) against one built with -DSCREE_DOUBLE=ON.
-// render/benchmarks/compare_precision runs it over scenes. The same seed gives the same paths, but where rounding flips a choice.
+// How far apart two renders of the same scene are, pixel by pixel: the tracer in single precision (the default) against
+// one built with -DSCREE_DOUBLE=ON. render/benchmarks/compare_precision runs it over scenes. The same seed gives the
+// same paths, but where rounding flips a choice.
 //
 //     precision_bench NAME SINGLE.exr DOUBLE.exr
 //
@@ -37,13 +38,15 @@ try {
         sum += difference;
         squares += difference * difference;
     }
-    // Choices that rounding flips leave pixels apart by their noise, as often up as down: the standard error is that of the pixels' differences.
+    // Choices that rounding flips leave pixels apart by their noise, as often up as down: the standard error is that of
+    // the pixels' differences.
     const auto n = static_cast<double>(count);
     const double error = std::sqrt(std::max(0.0, squares / n - sum / n * (sum / n)) / n);
     const double off = sum / n, rounding = 1e-6 * mean / n, scale = mean != 0 ? 100 * n / mean : 1;
     const bool agree = std::abs(off) <= 4 * error + rounding && std::isfinite(mean);
-    fmt::print("{:<44} {:>7.2f} % {:>10.2e} {:>14.8g} {:>+11.1e} % {:>8.1e} % {:>+7.1f}{}\n", argv[1], 100 * static_cast<double>(differing) / n, worst, mean / n,
-               off * scale, error * scale, error > 0 ? off / error : 0, agree ? "" : "  FAILED");
+    fmt::print("{:<44} {:>7.2f} % {:>10.2e} {:>14.8g} {:>+11.1e} % {:>8.1e} % {:>+7.1f}{}\n", argv[1],
+               100 * static_cast<double>(differing) / n, worst, mean / n, off * scale, error * scale,
+               error > 0 ? off / error : 0, agree ? "" : "  FAILED");
     return agree ? 0 : 1;
 } catch (const scree::InputError& error) {
     fmt::print(stderr, "precision_bench: {}\n", error.what());

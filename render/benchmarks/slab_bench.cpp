@@ -1,13 +1,14 @@
-// Reflectance and transmittance of slabs of packed spheres of radius 1: grains as they are against the media that stand for them.
-// usage: slab_bench [paths, default 20000] [thickness, default 10] [fractions, default 0.1,0.3,0.5,0.6] [grains, default all] [ept|ppt]
+// Reflectance and transmittance of slabs of packed spheres of radius 1: grains as they are against the media that stand
+// for them. usage: slab_bench [paths, default 20000] [thickness, default 10] [fractions, default 0.1,0.3,0.5,0.6]
+// [grains, default all] [ept|ppt]
 
-#include "render/gsdf/gsdf_builder.h"
-#include "render/grains/library/grain_library.h"
-#include "render/integrators/path_tracer.h"
-#include "render/equivalent/continuous_equivalent.h"
-#include "render/build/part_report.h"
-#include "render/scene/scene_description.h"
 #include "mixtures/single_mixture.h"
+#include "render/build/part_report.h"
+#include "render/equivalent/continuous_equivalent.h"
+#include "render/grains/library/grain_library.h"
+#include "render/gsdf/gsdf_builder.h"
+#include "render/integrators/path_tracer.h"
+#include "render/scene/scene_description.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/statistics.h"
@@ -39,15 +40,18 @@ MediumRegion region(const V3d& lo, const V3d& hi, const ContinuousEquivalent& me
     return region;
 }
 
-/// Grains at least `depth` from the faces are a medium; none: all are grains; negative: a medium alone, one radius within the faces.
-std::unique_ptr<Slab> make_slab(double thickness, double fraction, const GrainType& type, const ContinuousEquivalent* medium, double depth)
+/// Grains at least `depth` from the faces are a medium; none: all are grains; negative: a medium alone, one radius
+/// within the faces.
+std::unique_ptr<Slab> make_slab(double thickness, double fraction, const GrainType& type,
+                                const ContinuousEquivalent* medium, double depth)
 {
     auto slab = std::make_unique<Slab>();
     const double half = wide * thickness;
     const V3d lo(-half, -half, -0.5 * thickness), hi(half, half, 0.5 * thickness); // a fill is centred on its domain
     slab->world.types.push_back(type);
     if (depth >= 0 || !medium) {
-        const auto fill = std::make_shared<ProceduralFill>(std::make_shared<const Domain>(box_mesh(lo, hi), "slab"), sphere_tile(fraction, 1000), FillOptions{1, 0});
+        const auto fill = std::make_shared<ProceduralFill>(std::make_shared<const Domain>(box_mesh(lo, hi), "slab"),
+                                                           sphere_tile(fraction, 1000), FillOptions{1, 0});
         slab->world.fill = std::make_shared<GrainFill>(fill, std::make_shared<SingleMixture>(0), slab->world.space);
         slab->world.domain = fill->domain().bounds();
     }
@@ -66,7 +70,8 @@ struct Figures {
     double seconds = 0;
 };
 
-Figures shine(const Slab& slab, double thickness, uint32_t paths, double cosine, uint32_t explicit_grains, uint64_t seed)
+Figures shine(const Slab& slab, double thickness, uint32_t paths, double cosine, uint32_t explicit_grains,
+              uint64_t seed)
 {
     std::vector<std::pair<float, bool>> values(paths);
     const Stopwatch watch;
@@ -94,9 +99,11 @@ Figures shine(const Slab& slab, double thickness, uint32_t paths, double cosine,
 void print_row(const std::string& what, const Figures& figures, const Figures& exact)
 {
     const auto against = [](const Estimate& e, const Estimate& truth) {
-        return fmt::format("{:+7.2f} +-{:5.2f}", 100 * (e.mean() / truth.mean() - 1), 100 * std::hypot(e.standard_error(), truth.standard_error()) / truth.mean());
+        return fmt::format("{:+7.2f} +-{:5.2f}", 100 * (e.mean() / truth.mean() - 1),
+                           100 * std::hypot(e.standard_error(), truth.standard_error()) / truth.mean());
     };
-    fmt::print("    {:22} R {:.5f} {} %   T {:.5f} {} %  {:6.2f} s\n", what, figures.reflected.mean(), against(figures.reflected, exact.reflected), figures.passed.mean(),
+    fmt::print("    {:22} R {:.5f} {} %   T {:.5f} {} %  {:6.2f} s\n", what, figures.reflected.mean(),
+               against(figures.reflected, exact.reflected), figures.passed.mean(),
                against(figures.passed, exact.passed), figures.seconds);
     std::fflush(stdout);
 }
@@ -127,8 +134,12 @@ int main(int argc, char** argv)
     const LibraryGrain& sugar = *find_library_grain("sugar");
     Material sugar_material = sugar.material;
     sugar_material.absorption *= static_cast<Real>(sugar.typical_radius);
-    const auto sugar_shape = std::make_shared<const Exemplar>(device, make_grain_shape(sugar, {0, 2000, {}}, "sugar"), "sugar");
-    std::vector<GrainType> types{{"white 0.9", lambert(0.9f), nullptr}, {"glass", dielectric(1.5), nullptr}, {"absorbing", tinted, nullptr}, {"sugar", sugar_material, sugar_shape}};
+    const auto sugar_shape =
+        std::make_shared<const Exemplar>(device, make_grain_shape(sugar, {0, 2000, {}}, "sugar"), "sugar");
+    std::vector<GrainType> types{{"white 0.9", lambert(0.9f), nullptr},
+                                 {"glass", dielectric(1.5), nullptr},
+                                 {"absorbing", tinted, nullptr},
+                                 {"sugar", sugar_material, sugar_shape}};
     for (GrainType& type : types) {
         if (wanted != "all" && wanted.find(type.name) == std::string::npos) continue;
         type.gsdf = build_gsdf({type.exemplar.get(), type.material}, {0.03});
@@ -142,23 +153,33 @@ int main(int argc, char** argv)
             options.safe_radius = 0.95 * bed.half();
             const PackingWalk walk = walk_packing(bed.world(), bed.tracer(), options);
             std::vector<ContinuousEquivalent> forms;
-            for (const EquivalentForm form : {EquivalentForm::plain, EquivalentForm::formula, EquivalentForm::walk, EquivalentForm::decay}) {
+            for (const EquivalentForm form :
+                 {EquivalentForm::plain, EquivalentForm::formula, EquivalentForm::walk, EquivalentForm::decay}) {
                 forms.push_back(continuous_equivalent(mixture, form, &walk));
             }
-            fmt::print("{}, f {}, {} radii thick; walk {:.2f} s: sigma_t {:.4f} g {:.4f} albedo {:.5f} -> {:.5f}; plain {:.4f} {:.4f}\n", type.name, f, thickness, walk.seconds,
-                       forms[2].sigma_t, forms[2].g, forms[2].albedo.x, forms[3].albedo.x, forms[0].sigma_t, forms[0].g);
+            fmt::print("{}, f {}, {} radii thick; walk {:.2f} s: sigma_t {:.4f} g {:.4f} albedo {:.5f} -> {:.5f}; "
+                       "plain {:.4f} {:.4f}\n",
+                       type.name, f, thickness, walk.seconds, forms[2].sigma_t, forms[2].g, forms[2].albedo.x,
+                       forms[3].albedo.x, forms[0].sigma_t, forms[0].g);
             const auto grains = make_slab(thickness, f, type, nullptr, 0);
             for (const double cosine : cosines) {
                 const Figures exact = shine(*grains, thickness, 2 * paths, cosine, as_they_are, 1);
-                fmt::print("  incidence {}:              R {:.5f} +- {:.5f}        T {:.5f} +- {:.5f}          {:6.2f} s\n", cosine, exact.reflected.mean(), exact.reflected.standard_error(),
-                           exact.passed.mean(), exact.passed.standard_error(), exact.seconds);
+                fmt::print(
+                    "  incidence {}:              R {:.5f} +- {:.5f}        T {:.5f} +- {:.5f}          {:6.2f} s\n",
+                    cosine, exact.reflected.mean(), exact.reflected.standard_error(), exact.passed.mean(),
+                    exact.passed.standard_error(), exact.seconds);
                 for (size_t form = 0; form < forms.size(); ++form) {
-                    print_row("medium alone, " + medium_form_names[form], shine(*make_slab(thickness, f, type, &forms[form], -1), thickness, paths, cosine, 0, 2), exact);
+                    print_row("medium alone, " + medium_form_names[form],
+                              shine(*make_slab(thickness, f, type, &forms[form], -1), thickness, paths, cosine, 0, 2),
+                              exact);
                 }
                 for (const double depth : depths) {
                     if (2 * depth >= thickness) continue;
                     for (const size_t form : {size_t{2}, size_t{3}}) {
-                        print_row(fmt::format("grains to {} r, {}", depth, medium_form_names[form]), shine(*make_slab(thickness, f, type, &forms[form], depth), thickness, paths, cosine, 0, 3), exact);
+                        print_row(
+                            fmt::format("grains to {} r, {}", depth, medium_form_names[form]),
+                            shine(*make_slab(thickness, f, type, &forms[form], depth), thickness, paths, cosine, 0, 3),
+                            exact);
                     }
                 }
             }

@@ -2,8 +2,8 @@
 // usage: start_bench [repetitions, 200 by default]
 
 #include "base/json.h"
-#include "render/trace/tracer.h"
 #include "render/build/world_builder.h"
+#include "render/trace/tracer.h"
 
 #include <fmt/format.h>
 
@@ -16,9 +16,14 @@ namespace {
 SceneDescription ten_grains(const std::string& integrator)
 {
     std::string spheres;
-    for (int i = 0; i < 10; ++i) spheres += fmt::format(R"({}{{"center": [{}, {}, 0], "radius": 0.25}})", i ? ", " : "", 0.5 * (i % 5), 0.5 * (i / 5));
-    const std::string text = R"({"camera": {"origin": [0, -9, 5], "target": [0, 0, 0]}, "lights": [{"kind": "constant"}], "integrator": {"kind": ")" + integrator +
-                             R"("}, "grains": {"types": {"clay": {"shape": "sphere", "material": {"kind": "lambert"}}}, "assembly": {"spheres": [)" + spheres + "]}}}";
+    for (int i = 0; i < 10; ++i)
+        spheres +=
+            fmt::format(R"({}{{"center": [{}, {}, 0], "radius": 0.25}})", i ? ", " : "", 0.5 * (i % 5), 0.5 * (i / 5));
+    const std::string text =
+        R"({"camera": {"origin": [0, -9, 5], "target": [0, 0, 0]}, "lights": [{"kind": "constant"}], "integrator": {"kind": ")" +
+        integrator +
+        R"("}, "grains": {"types": {"clay": {"shape": "sphere", "material": {"kind": "lambert"}}}, "assembly": {"spheres": [)" +
+        spheres + "]}}}";
     return read_scene(JsonDocument::parse(text, "ten.json", "."), "ten.json");
 }
 
@@ -55,7 +60,8 @@ int main(int argc, char** argv)
         if (!first) a.push_back(setup_seconds(automatic));
     }
     for (const auto& [name, values] : {std::pair{"auto", a}, {"ept", e}}) {
-        fmt::print("{:<5} {:.3f} ms, quartiles {:.3f} to {:.3f}\n", name, 1e3 * quantile(values, 0.5), 1e3 * quantile(values, 0.25), 1e3 * quantile(values, 0.75));
+        fmt::print("{:<5} {:.3f} ms, quartiles {:.3f} to {:.3f}\n", name, 1e3 * quantile(values, 0.5),
+                   1e3 * quantile(values, 0.25), 1e3 * quantile(values, 0.75));
     }
     fmt::print("ratio of medians {:.3f}\n", quantile(a, 0.5) / quantile(e, 0.5));
     return 0;

@@ -1,16 +1,18 @@
-// Shell tracing against path tracing in a statue filled with a medium of snow's phase function, as in figure 4 of Müller et al. 2016.
-// usage: stf_bench [seconds per method and row, default 10] [mean free paths per height, default 10,30,100,300,1000] [albedos, default 0.99,0.999,1]
-//                  [forms, default full,cosine,hg,interpolated,diffusion] [seconds of a row's reference, default 30] [pixels across, default 64]
-//                  [accuracy of the tables, default standard] [closed mesh in place of the statue, its height along z]
+// Shell tracing against path tracing in a statue filled with a medium of snow's phase function, as in figure 4 of
+// Müller et al. 2016. usage: stf_bench [seconds per method and row, default 10] [mean free paths per height, default
+// 10,30,100,300,1000] [albedos, default 0.99,0.999,1]
+//                  [forms, default full,cosine,hg,interpolated,diffusion] [seconds of a row's reference, default 30]
+//                  [pixels across, default 64] [accuracy of the tables, default standard] [closed mesh in place of the
+//                  statue, its height along z]
 
 #include "base/error.h"
-#include "render/gsdf/gsdf_cache.h"
-#include "render/grains/shape_source.h"
-#include "render/integrators/path_tracer.h"
-#include "render/equivalent/grain_moments.h"
-#include "render/embree/embree_device.h"
 #include "render/build/shell_builder.h"
 #include "render/build/type_builder.h"
+#include "render/embree/embree_device.h"
+#include "render/equivalent/grain_moments.h"
+#include "render/grains/shape_source.h"
+#include "render/gsdf/gsdf_cache.h"
+#include "render/integrators/path_tracer.h"
 #include "render/stf/medium_shells.h"
 #include "tests/builders/statistics.h"
 #include "tests/builders/statue.h"
@@ -40,7 +42,8 @@ std::shared_ptr<const PhaseTable> snow_phase()
     const LibraryGrain& grain = *find_library_grain("snowflake");
     const EmbreeDevice device;
     const ShapeSource shape{{}, &grain, {}};
-    const GsdfSource source{hash_shape(shape), grain.material, [&] { return make_exemplar(device, shape, grain.material, "snowflake", "snowflake"); }};
+    const GsdfSource source{hash_shape(shape), grain.material,
+                            [&] { return make_exemplar(device, shape, grain.material, "snowflake", "snowflake"); }};
     const FoundGsdf found = find_gsdf(source, gsdf_options(Accuracy::standard), cache_folder());
     return std::make_shared<PhaseTable>(grain_moments(*found.gsdf).phase);
 }
@@ -64,8 +67,9 @@ public:
         world.lights = LightSet({sky, sun}, 0.7);
         Stopwatch watch;
         world.clearance = make_clearance(world, Progress());
-        fmt::print("{} triangles; clearances made in {:.2f} s, {:.1f} MB, largest {:.3f} of the height\n", mesh.triangles.size(), watch.seconds(),
-                   1e-6 * static_cast<double>(world.clearance->bytes()), world.clearance->largest());
+        fmt::print("{} triangles; clearances made in {:.2f} s, {:.1f} MB, largest {:.3f} of the height\n",
+                   mesh.triangles.size(), watch.seconds(), 1e-6 * static_cast<double>(world.clearance->bytes()),
+                   world.clearance->largest());
         const auto device = std::make_shared<EmbreeDevice>();
         tracer = std::make_unique<Tracer>(device, world);
         const std::shared_ptr<const ClearanceField> known = std::exchange(world.clearance, nullptr);
@@ -73,7 +77,9 @@ public:
         world.clearance = known;
         for (uint32_t p = 0; p < columns_ * rows_; ++p) {
             RegionSet outside = 0;
-            if (Crossing crossing; tracer->regions()->next(eye(p, 0.5, 0.5), forwards, 0, 4, nullptr, outside, crossing)) pixels.push_back(p);
+            if (Crossing crossing;
+                tracer->regions()->next(eye(p, 0.5, 0.5), forwards, 0, 4, nullptr, outside, crossing))
+                pixels.push_back(p);
         }
     }
 
@@ -105,7 +111,8 @@ constexpr const char* plain_name = "VPT plain";
 /// What the paths of one method brought: pixels of two halves that have nothing in common, and what they cost.
 class Picture {
 public:
-    Picture(std::string name, std::shared_ptr<const MediumShells> shells, uint64_t seed, size_t pixels) : name_(std::move(name)), shells_(std::move(shells)), seed_(seed)
+    Picture(std::string name, std::shared_ptr<const MediumShells> shells, uint64_t seed, size_t pixels)
+        : name_(std::move(name)), shells_(std::move(shells)), seed_(seed)
     {
         for (auto& half : halves_) half.resize(pixels);
     }
@@ -137,7 +144,10 @@ public:
 
     const std::string& name() const { return name_; }
     uint64_t paths() const { return paths_; }
-    double per_path(uint64_t Picture::* what) const { return static_cast<double>(this->*what) / static_cast<double>(paths_); }
+    double per_path(uint64_t Picture::*what) const
+    {
+        return static_cast<double>(this->*what) / static_cast<double>(paths_);
+    }
     double seconds_per_path() const { return seconds_ / static_cast<double>(paths_); }
     double mean(size_t half, size_t pixel) const { return halves_[half][pixel].mean(); }
     double mean(size_t pixel) const { return 0.5 * (mean(0, pixel) + mean(1, pixel)); }
@@ -183,7 +193,8 @@ double variance(const Picture& picture, size_t half, const std::vector<double>& 
 
 void print_row(const std::vector<Picture>& pictures, const Picture& reference, size_t pixels)
 {
-    // Errors count by the mean of all methods: a square that has no part in the product that it divides, as far as may be.
+    // Errors count by the mean of all methods: a square that has no part in the product that it divides, as far as may
+    // be.
     std::vector<double> squares(pixels, 0);
     double level = 0;
     for (size_t i = 0; i < pixels; ++i) {
@@ -192,22 +203,31 @@ void print_row(const std::vector<Picture>& pictures, const Picture& reference, s
     }
     for (double& s : squares) s = s * s + 0.01 * level * level;
 
-    fmt::print("  {:<13}{:>9}{:>11}{:>9}{:>10}{:>9}{:>9}{:>10}{:>11}{:>16}{:>18}{:>24}\n", "", "paths", "us a path", "events", "segments", "shadows", "shells", "variance", "TTUV ms",
-               "VPT's / this", "mean, %", "MRSE, 1e-4");
+    fmt::print("  {:<13}{:>9}{:>11}{:>9}{:>10}{:>9}{:>9}{:>10}{:>11}{:>16}{:>18}{:>24}\n", "", "paths", "us a path",
+               "events", "segments", "shadows", "shells", "variance", "TTUV ms", "VPT's / this", "mean, %",
+               "MRSE, 1e-4");
     for (const Picture& p : pictures) {
         std::array<double, 2> v{}, ratio{};
         for (size_t half = 0; half < 2; ++half) {
             v[half] = variance(p, half, squares);
-            ratio[half] = variance(pictures[0], half, squares) * pictures[0].seconds_per_path() / (v[half] * p.seconds_per_path());
+            ratio[half] = variance(pictures[0], half, squares) * pictures[0].seconds_per_path() /
+                          (v[half] * p.seconds_per_path());
         }
         Estimate mrse;
-        for (size_t i = 0; i < pixels; ++i) mrse.add((p.mean(0, i) - reference.mean(0, i)) * (p.mean(1, i) - reference.mean(1, i)) / squares[i]);
-        const double truth = reference.image().mean(), off = p.image().mean() / truth - 1, off_by = std::hypot(p.standard_error(), reference.standard_error()) / truth;
-        const auto doubt = [](double x, double error) { return std::abs(x) < 2 * error ? "~" : " "; }; // below the noise
-        fmt::print("  {:<13}{:>9}{:>11.1f}{:>9.1f}{:>10.2f}{:>9.2f}{:>9.2f}{:>10.3f}{:>11.3f}{:>9.2f} +-{:>4.1f}{:>10.2f} +-{:>4.2f}{}{:>12.2f} +-{:>7.2f}{}\n", p.name(), p.paths(),
-                   1e6 * p.seconds_per_path(), p.per_path(&Picture::events_), p.per_path(&Picture::segments_), p.per_path(&Picture::shadow_rays_), p.per_path(&Picture::steps_),
-                   0.5 * (v[0] + v[1]), 500 * (v[0] + v[1]) * p.seconds_per_path(), 0.5 * (ratio[0] + ratio[1]), 0.5 * std::abs(ratio[0] - ratio[1]), 100 * off, 100 * off_by,
-                   doubt(off, off_by), 1e4 * mrse.mean(), 1e4 * mrse.standard_error(), doubt(mrse.mean(), mrse.standard_error()));
+        for (size_t i = 0; i < pixels; ++i)
+            mrse.add((p.mean(0, i) - reference.mean(0, i)) * (p.mean(1, i) - reference.mean(1, i)) / squares[i]);
+        const double truth = reference.image().mean(), off = p.image().mean() / truth - 1,
+                     off_by = std::hypot(p.standard_error(), reference.standard_error()) / truth;
+        const auto doubt = [](double x, double error) {
+            return std::abs(x) < 2 * error ? "~" : " ";
+        }; // below the noise
+        fmt::print("  {:<13}{:>9}{:>11.1f}{:>9.1f}{:>10.2f}{:>9.2f}{:>9.2f}{:>10.3f}{:>11.3f}{:>9.2f} "
+                   "+-{:>4.1f}{:>10.2f} +-{:>4.2f}{}{:>12.2f} +-{:>7.2f}{}\n",
+                   p.name(), p.paths(), 1e6 * p.seconds_per_path(), p.per_path(&Picture::events_),
+                   p.per_path(&Picture::segments_), p.per_path(&Picture::shadow_rays_), p.per_path(&Picture::steps_),
+                   0.5 * (v[0] + v[1]), 500 * (v[0] + v[1]) * p.seconds_per_path(), 0.5 * (ratio[0] + ratio[1]),
+                   0.5 * std::abs(ratio[0] - ratio[1]), 100 * off, 100 * off_by, doubt(off, off_by), 1e4 * mrse.mean(),
+                   1e4 * mrse.standard_error(), doubt(mrse.mean(), mrse.standard_error()));
     }
     std::fflush(stdout);
 }
@@ -223,8 +243,11 @@ void run_row(Scene& scene, const std::vector<StfForm>& forms, StfCache& cache, d
         std::vector<std::string> remarks;
         scene.world.regions[0].shells = nullptr;
         add_shells({form}, cache, scene.world, parts, remarks, Progress());
-        for (const PartReport& part : parts) fmt::print("  {}: {}; {:.2f} s, {:.1f} MB\n", stf_form_names[static_cast<size_t>(form)], part.reason, part.seconds, 1e-6 * static_cast<double>(part.bytes));
-        pictures.emplace_back(stf_form_names[static_cast<size_t>(form)], scene.world.regions[0].shells, 2 + static_cast<uint64_t>(form), scene.pixels.size());
+        for (const PartReport& part : parts)
+            fmt::print("  {}: {}; {:.2f} s, {:.1f} MB\n", stf_form_names[static_cast<size_t>(form)], part.reason,
+                       part.seconds, 1e-6 * static_cast<double>(part.bytes));
+        pictures.emplace_back(stf_form_names[static_cast<size_t>(form)], scene.world.regions[0].shells,
+                              2 + static_cast<uint64_t>(form), scene.pixels.size());
     }
     Picture reference("reference", nullptr, 100, scene.pixels.size());
     for (int turn = 0; turn < turns; ++turn) {
@@ -233,7 +256,8 @@ void run_row(Scene& scene, const std::vector<StfForm>& forms, StfCache& cache, d
     }
     for (Picture& p : pictures) p.complete(scene);
     reference.complete(scene);
-    fmt::print("  reference: {} paths, mean {:.5f} +- {:.2f} %\n", reference.paths(), reference.image().mean(), 100 * reference.standard_error() / reference.image().mean());
+    fmt::print("  reference: {} paths, mean {:.5f} +- {:.2f} %\n", reference.paths(), reference.image().mean(),
+               100 * reference.standard_error() / reference.image().mean());
     print_row(pictures, reference, scene.pixels.size());
 }
 
@@ -243,25 +267,31 @@ int main(int argc, char** argv)
 {
     const auto argument = [&](int i, const char* absent) { return std::string(argc > i ? argv[i] : absent); };
     try {
-        const double seconds = std::atof(argument(1, "10").c_str()), reference_seconds = std::atof(argument(5, "30").c_str());
+        const double seconds = std::atof(argument(1, "10").c_str()),
+                     reference_seconds = std::atof(argument(5, "30").c_str());
         std::vector<StfForm> forms;
         for (const std::string& word : words(argument(4, "full,cosine,hg,interpolated,diffusion"))) {
             const auto name = std::ranges::find(stf_form_names, word);
-            if (name == stf_form_names.end()) throw InputError("forms", word, "of " + fmt::format("{}", fmt::join(stf_form_names, ", ")));
+            if (name == stf_form_names.end())
+                throw InputError("forms", word, "of " + fmt::format("{}", fmt::join(stf_form_names, ", ")));
             forms.push_back(static_cast<StfForm>(name - stf_form_names.begin()));
         }
         const auto accuracy = std::ranges::find(accuracy_names, argument(7, "standard"));
-        if (accuracy == accuracy_names.end()) throw InputError("accuracy", argument(7, ""), "of " + fmt::format("{}", fmt::join(accuracy_names, ", ")));
+        if (accuracy == accuracy_names.end())
+            throw InputError("accuracy", argument(7, ""), "of " + fmt::format("{}", fmt::join(accuracy_names, ", ")));
         StfCache cache(cache_folder(), stf_options(static_cast<Accuracy>(accuracy - accuracy_names.begin())));
         const auto phase = snow_phase();
         fmt::print("mean cosine of the phase function {:.4f}\n", phase->mean_cosine());
-        Scene scene(argc > 8 ? read_closed_mesh(argv[8], "it is filled with a medium") : statue_mesh(), static_cast<uint32_t>(std::atoi(argument(6, "64").c_str())));
-        fmt::print("{} pixels show it. Times are processor times of one thread; ~: less than two standard errors.\n", scene.pixels.size());
+        Scene scene(argc > 8 ? read_closed_mesh(argv[8], "it is filled with a medium") : statue_mesh(),
+                    static_cast<uint32_t>(std::atoi(argument(6, "64").c_str())));
+        fmt::print("{} pixels show it. Times are processor times of one thread; ~: less than two standard errors.\n",
+                   scene.pixels.size());
         flush_subnormals();
         for (const std::string& length : words(argument(2, "10,30,100,300,1000"))) {
             for (const std::string& albedo : words(argument(3, "0.99,0.999,1"))) {
                 fmt::print("\n{} mean free paths, albedo {}\n", length, albedo);
-                scene.world.regions[0].homogeneous = std::make_shared<HomogeneousMedium>(V3d(std::stod(length)), Color(std::stof(albedo)), phase);
+                scene.world.regions[0].homogeneous =
+                    std::make_shared<HomogeneousMedium>(V3d(std::stod(length)), Color(std::stof(albedo)), phase);
                 run_row(scene, forms, cache, seconds, reference_seconds);
             }
         }

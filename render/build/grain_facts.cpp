@@ -33,7 +33,8 @@ private:
 
 } // namespace
 
-GrainFacts facts_of_list(const ParticleFrame& frame, const std::vector<uint8_t>& types, const std::vector<GrainTypeDescription>& descriptions)
+GrainFacts facts_of_list(const ParticleFrame& frame, const std::vector<uint8_t>& types,
+                         const std::vector<GrainTypeDescription>& descriptions)
 {
     FactSums sums;
     Imath::Box3d bounds;
@@ -56,7 +57,8 @@ GrainFacts facts_of_fill(const GrainFill& fill, const std::vector<GrainTypeDescr
     const uint64_t rows = spheres.tile().rows();
     FactSums sums;
     for (uint64_t n = 0; n < drawn; ++n) {
-        const uint64_t random = hash_index(n, 0), row = mix64(random) % rows, id = spheres.id(random % spheres.cell_count(), row);
+        const uint64_t random = hash_index(n, 0), row = mix64(random) % rows,
+                       id = spheres.id(random % spheres.cell_count(), row);
         sums.add(spheres.radius(row), descriptions[fill.type(id)].material);
     }
     GrainFacts facts = sums.means();

@@ -4,8 +4,8 @@
 #include "base/hash.h"
 #include "render/equivalent/core_region.h"
 #include "render/equivalent/grain_field_grids.h"
-#include "render/media/grid_medium_build.h"
 #include "render/equivalent/walk_bed.h"
+#include "render/media/grid_medium_build.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -16,15 +16,19 @@ namespace {
 
 constexpr uint64_t sampled = 20000; // grains: 0.7 % of a type's part
 
-/// Mixtures and pack rates near that of the whole: the formula for each, and what the walk in the whole has found it to be off by.
+/// Mixtures and pack rates near that of the whole: the formula for each, and what the walk in the whole has found it to
+/// be off by.
 class LocalMedia {
 public:
     LocalMedia(const GrainMedium& whole, const MomentTable& table) : whole_(whole), table_(table)
     {
-        const ContinuousEquivalent formula = continuous_equivalent(whole.moments, whole.medium.form == EquivalentForm::plain ? EquivalentForm::plain : EquivalentForm::formula);
+        const ContinuousEquivalent formula =
+            continuous_equivalent(whole.moments, whole.medium.form == EquivalentForm::plain ? EquivalentForm::plain
+                                                                                            : EquivalentForm::formula);
         diffusivity_ = whole.medium.diffusivity / formula.diffusivity;
         transport_ = whole.medium.transport_length / formula.transport_length;
-        for (int c = 0; c < 3; ++c) lost_[c] = formula.albedo[c] < 1 ? (1 - whole.medium.albedo[c]) / (1 - formula.albedo[c]) : 1;
+        for (int c = 0; c < 3; ++c)
+            lost_[c] = formula.albedo[c] < 1 ? (1 - whole.medium.albedo[c]) / (1 - formula.albedo[c]) : 1;
     }
     const MomentTable& table() const { return table_; }
 
@@ -37,11 +41,13 @@ public:
     {
         if (shares.empty() || !(pack_rate > 0)) return {};
         const MixtureMoments moments = mixture_moments(shares, std::min(pack_rate, densest));
-        if (whole_.medium.form == EquivalentForm::plain) return {static_cast<float>(1 / moments.flight), static_cast<float>(moments.g), V3f(moments.albedo)};
+        if (whole_.medium.form == EquivalentForm::plain)
+            return {static_cast<float>(1 / moments.flight), static_cast<float>(moments.g), V3f(moments.albedo)};
         // Grains far apart know nothing of each other, and the formula is right.
         const double together = std::min(1.0, pack_rate / whole_.pack_rate);
         const auto corrected = [together](double factor) { return 1 + together * (factor - 1); };
-        const double d = moments.diffusivity() * corrected(diffusivity_), l = moments.transport_length() * corrected(transport_);
+        const double d = moments.diffusivity() * corrected(diffusivity_),
+                     l = moments.transport_length() * corrected(transport_);
         const double g = std::clamp(1 - d / (l * l), -0.95, 0.9999);
         V3d albedo;
         for (int c = 0; c < 3; ++c) albedo[c] = std::clamp(1 - (1 - moments.albedo[c]) * corrected(lost_[c]), 0.0, 1.0);
@@ -91,36 +97,42 @@ std::shared_ptr<const GridMedium> medium_of_list(const World& world, const Local
 {
     const GrainStore& grains = world.grains;
     const GrainFieldOptions options{.margin = grains.margin};
-    const GrainFields fields = make_grain_fields({grains.spheres.data(), grains.size()}, grains.type_codes, static_cast<uint32_t>(world.types.size()), options, progress);
+    const GrainFields fields = make_grain_fields({grains.spheres.data(), grains.size()}, grains.type_codes,
+                                                 static_cast<uint32_t>(world.types.size()), options, progress);
     const GrainFields::Grids& known = fields.grids();
     std::vector<openvdb::Coord> voxels;
     for (auto it = known.pack_rate->cbeginValueOn(); it; ++it) voxels.push_back(it.getCoord());
     Grids grids;
     grids.to_render.setScale(known.voxel);
-    fill_voxels(grids, voxels, [&](const openvdb::Coord& at) {
-        std::vector<GrainShare> shares;
-        for (size_t i = 0; i < known.types.size(); ++i) {
-            const auto& type = known.types[i];
-            media.table().add_shares(known.codes[i], type.m2->tree().getValue(at), type.m3->tree().getValue(at), type.m4->tree().getValue(at), shares);
-        }
-        // At the rim the material of the last grains is spread over voxels that are in part outside: each counts its neighbours
-        // by what they hold.
-        double rate = 0, square = 0;
-        for (int i = -1; i <= 1; ++i) {
-            for (int j = -1; j <= 1; ++j) {
-                for (int k = -1; k <= 1; ++k) {
-                    const double f = known.pack_rate->tree().getValue(at.offsetBy(i, j, k));
-                    rate += f;
-                    square += f * f;
+    fill_voxels(
+        grids, voxels,
+        [&](const openvdb::Coord& at) {
+            std::vector<GrainShare> shares;
+            for (size_t i = 0; i < known.types.size(); ++i) {
+                const auto& type = known.types[i];
+                media.table().add_shares(known.codes[i], type.m2->tree().getValue(at), type.m3->tree().getValue(at),
+                                         type.m4->tree().getValue(at), shares);
+            }
+            // At the rim the material of the last grains is spread over voxels that are in part outside: each counts
+            // its neighbours by what they hold.
+            double rate = 0, square = 0;
+            for (int i = -1; i <= 1; ++i) {
+                for (int j = -1; j <= 1; ++j) {
+                    for (int k = -1; k <= 1; ++k) {
+                        const double f = known.pack_rate->tree().getValue(at.offsetBy(i, j, k));
+                        rate += f;
+                        square += f * f;
+                    }
                 }
             }
-        }
-        return media.at(shares, rate > 0 ? square / rate : 0);
-    }, progress);
+            return media.at(shares, rate > 0 ? square / rate : 0);
+        },
+        progress);
     return grids.make(progress);
 }
 
-std::shared_ptr<const GridMedium> medium_of_fill(const World& world, const RegionSurface& region, const LocalMedia& media, const Progress& progress)
+std::shared_ptr<const GridMedium> medium_of_fill(const World& world, const RegionSurface& region,
+                                                 const LocalMedia& media, const Progress& progress)
 {
     constexpr int longest = 96; // voxels along the region
     constexpr uint64_t drawn = 64; // spheres a voxel: a part of a half is known to 6 %
@@ -141,29 +153,37 @@ std::shared_ptr<const GridMedium> medium_of_fill(const World& world, const Regio
     grids.to_render[3][1] = box.min.y;
     grids.to_render[3][2] = box.min.z;
     const uint64_t rows = fill.fill().tile().rows();
-    fill_voxels(grids, voxels, [&](const openvdb::Coord& at) {
-        struct Sums {
-            double m2 = 0, m3 = 0, m4 = 0;
-        };
-        std::vector<Sums> sums(world.types.size());
-        const uint64_t key = hash_index(static_cast<uint64_t>(static_cast<uint32_t>(at.x())) << 32 | static_cast<uint32_t>(at.y()), static_cast<uint64_t>(static_cast<uint32_t>(at.z())));
-        for (uint64_t n = 0; n < drawn; ++n) {
-            const uint64_t random = hash_index(n, key);
-            const uint64_t cell = random % fill.fill().cell_count(), row = mix64(random) % rows;
-            const auto offset = [&](uint64_t stream) { return static_cast<double>(hash_index(n, key, stream) >> 11) * 0x1p-53 - 0.5; };
-            const V3d place = box.min + voxel * V3d(at.x() + offset(1), at.y() + offset(2), at.z() + offset(3));
-            const uint64_t id = fill.fill().id(cell, row);
-            const float radius = fill.fill().radius(row);
-            Sums& sum = sums[fill.type(id, {world.space.world_point(place), radius})];
-            const double r = world.space.length(radius), r2 = r * r;
-            sum.m2 += r2;
-            sum.m3 += r2 * r;
-            sum.m4 += r2 * r2;
-        }
-        std::vector<GrainShare> shares;
-        for (size_t t = 0; t < sums.size(); ++t) media.table().add_shares(static_cast<uint8_t>(t), sums[t].m2, sums[t].m3, sums[t].m4, shares);
-        return media.at(shares, fill.fill().tile().fraction());
-    }, progress);
+    fill_voxels(
+        grids, voxels,
+        [&](const openvdb::Coord& at) {
+            struct Sums {
+                double m2 = 0, m3 = 0, m4 = 0;
+            };
+            std::vector<Sums> sums(world.types.size());
+            const uint64_t key =
+                hash_index(static_cast<uint64_t>(static_cast<uint32_t>(at.x())) << 32 | static_cast<uint32_t>(at.y()),
+                           static_cast<uint64_t>(static_cast<uint32_t>(at.z())));
+            for (uint64_t n = 0; n < drawn; ++n) {
+                const uint64_t random = hash_index(n, key);
+                const uint64_t cell = random % fill.fill().cell_count(), row = mix64(random) % rows;
+                const auto offset = [&](uint64_t stream) {
+                    return static_cast<double>(hash_index(n, key, stream) >> 11) * 0x1p-53 - 0.5;
+                };
+                const V3d place = box.min + voxel * V3d(at.x() + offset(1), at.y() + offset(2), at.z() + offset(3));
+                const uint64_t id = fill.fill().id(cell, row);
+                const float radius = fill.fill().radius(row);
+                Sums& sum = sums[fill.type(id, {world.space.world_point(place), radius})];
+                const double r = world.space.length(radius), r2 = r * r;
+                sum.m2 += r2;
+                sum.m3 += r2 * r;
+                sum.m4 += r2 * r2;
+            }
+            std::vector<GrainShare> shares;
+            for (size_t t = 0; t < sums.size(); ++t)
+                media.table().add_shares(static_cast<uint8_t>(t), sums[t].m2, sums[t].m3, sums[t].m4, shares);
+            return media.at(shares, fill.fill().tile().fraction());
+        },
+        progress);
     return grids.make(progress);
 }
 
@@ -172,7 +192,8 @@ bool is_patterned(const World& world, const PackingSample& sample)
     // The same spheres at other places: a mixture that goes by ids alone gives them the same types.
     const GrainFill& fill = *world.fill;
     for (size_t i = 0; i < sample.grains.size(); i += 16) {
-        const uint64_t cell = hash_index(i, 0) % fill.fill().cell_count(), other = hash_index(i, 1) % fill.fill().cell_count();
+        const uint64_t cell = hash_index(i, 0) % fill.fill().cell_count(),
+                       other = hash_index(i, 1) % fill.fill().cell_count();
         const uint64_t id = fill.fill().id(cell, sample.grains[i].row);
         const ProceduralFill::Sphere sphere = fill.fill().sphere(fill.fill().id(other, sample.grains[i].row));
         if (fill.type(id) != fill.type(id, sphere)) return true;
@@ -216,7 +237,10 @@ struct Core {
 };
 
 /// As deep as a medium begins at least, whatever it is.
-double least_depth(const PackingSample& sample, const GrainDepth& depth) { return depth.all ? sample.volume_weighted_radius() : depth.radii * sample.mean_radius(); }
+double least_depth(const PackingSample& sample, const GrainDepth& depth)
+{
+    return depth.all ? sample.volume_weighted_radius() : depth.radii * sample.mean_radius();
+}
 
 constexpr const char* part = "medium of the grains";
 
@@ -227,17 +251,24 @@ void take_all_grains(World& world)
     world.fill = nullptr;
 }
 
-void report_no_core(double below, const PackingSample& sample, const GrainDepth& depth, double seconds, std::vector<PartReport>& parts, std::vector<std::string>& remarks)
+void report_no_core(double below, const PackingSample& sample, const GrainDepth& depth, double seconds,
+                    std::vector<PartReport>& parts, std::vector<std::string>& remarks)
 {
-    parts.push_back({part, false, depth.all ? "no grain is deeper than a radius" : fmt::format("no place is {:.3g} mean radii deep", below / sample.mean_radius()), seconds});
+    parts.push_back({part, false,
+                     depth.all ? "no grain is deeper than a radius"
+                               : fmt::format("no place is {:.3g} mean radii deep", below / sample.mean_radius()),
+                     seconds});
     if (depth.all) remarks.push_back("no place is deeper among the grains than one of them: the picture lacks them");
 }
 
 /// core: as deep as the medium begins at least. Returns from how many mean radii on it stands for grains, if anywhere.
-std::optional<double> replace_grains(const GrainMedium& medium, const GrainDepth& depth, Core core, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
+std::optional<double> replace_grains(const GrainMedium& medium, const GrainDepth& depth, Core core, World& world,
+                                     std::vector<PartReport>& parts, std::vector<std::string>& remarks,
+                                     const Progress& progress)
 {
     const Stopwatch watch;
-    const double radius = medium.sample.mean_radius(), below = depth.all ? core.below : std::max(core.below, depth.flights / medium.medium.sigma_t);
+    const double radius = medium.sample.mean_radius(),
+                 below = depth.all ? core.below : std::max(core.below, depth.flights / medium.medium.sigma_t);
     if (below > core.below) core = {below, surface_below(world, below, progress)};
     std::optional<RegionSurface>& surface = core.surface;
     const bool is_made = !core.is_empty();
@@ -247,17 +278,26 @@ std::optional<double> replace_grains(const GrainMedium& medium, const GrainDepth
         MediumRegion region;
         region.name = part;
         region.instead_of_grains = true;
-        std::string how = fmt::format("{:.3g} mean radii deep, below {} triangles, ", below / radius, surface->triangles.size());
-        uint64_t bytes = surface->triangles.size() * sizeof(surface->triangles[0]) + surface->positions.size() * sizeof(V3f);
-        if (!world.fill) region.grid = medium_of_list(world, media, progress);
-        else if (is_patterned(world, medium.sample)) region.grid = medium_of_fill(world, *surface, media, progress);
-        else region.homogeneous = std::make_shared<HomogeneousMedium>(V3d(medium.medium.sigma_t), Weight(medium.medium.albedo), medium.medium.g);
+        std::string how =
+            fmt::format("{:.3g} mean radii deep, below {} triangles, ", below / radius, surface->triangles.size());
+        uint64_t bytes =
+            surface->triangles.size() * sizeof(surface->triangles[0]) + surface->positions.size() * sizeof(V3f);
+        if (!world.fill)
+            region.grid = medium_of_list(world, media, progress);
+        else if (is_patterned(world, medium.sample))
+            region.grid = medium_of_fill(world, *surface, media, progress);
+        else
+            region.homogeneous = std::make_shared<HomogeneousMedium>(V3d(medium.medium.sigma_t),
+                                                                     Weight(medium.medium.albedo), medium.medium.g);
         if (region.grid) bytes += region.grid->bytes();
         region.positions = std::move(surface->positions);
         region.triangles = std::move(surface->triangles);
         world.regions.push_back(std::move(region));
-        parts.push_back({part, true, how + (world.regions.back().grid ? "as the grains vary" : "the same everywhere"), watch.seconds(), bytes});
-        if (surface->coarsened) remarks.push_back("the surface of the medium that stands for the grains is coarse: it would have too many voxels");
+        parts.push_back({part, true, how + (world.regions.back().grid ? "as the grains vary" : "the same everywhere"),
+                         watch.seconds(), bytes});
+        if (surface->coarsened)
+            remarks.push_back(
+                "the surface of the medium that stands for the grains is coarse: it would have too many voxels");
         if (!medium.medium.doubt.empty()) remarks.push_back("the medium of the grains: " + medium.medium.doubt);
     } else {
         report_no_core(below, medium.sample, depth, watch.seconds(), parts, remarks);
@@ -275,13 +315,18 @@ std::optional<GrainMedium> make_grain_medium(const World& world, EquivalentForm 
     return make_grain_medium(world, std::move(sample), form, progress);
 }
 
-std::optional<double> replace_grains(const GrainMedium& medium, const GrainDepth& depth, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
+std::optional<double> replace_grains(const GrainMedium& medium, const GrainDepth& depth, World& world,
+                                     std::vector<PartReport>& parts, std::vector<std::string>& remarks,
+                                     const Progress& progress)
 {
     const double below = least_depth(medium.sample, depth);
-    return replace_grains(medium, depth, Core{below, surface_below(world, below, progress)}, world, parts, remarks, progress);
+    return replace_grains(medium, depth, Core{below, surface_below(world, below, progress)}, world, parts, remarks,
+                          progress);
 }
 
-std::optional<double> replace_grains(EquivalentForm form, const GrainDepth& depth, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
+std::optional<double> replace_grains(EquivalentForm form, const GrainDepth& depth, World& world,
+                                     std::vector<PartReport>& parts, std::vector<std::string>& remarks,
+                                     const Progress& progress)
 {
     const char* walk = "walk in the packing";
     const Stopwatch core_watch;
@@ -299,7 +344,10 @@ std::optional<double> replace_grains(EquivalentForm form, const GrainDepth& dept
     const GrainMedium medium = make_grain_medium(world, std::move(sample), form, progress);
     if (medium.walk) {
         const Measured& length = medium.walk->transport_length;
-        parts.push_back({walk, true, fmt::format("{} scatterings, transport length to {:.2g} %", medium.walk->scatterings, 100 * length.error / length.value), watch.seconds()});
+        parts.push_back({walk, true,
+                         fmt::format("{} scatterings, transport length to {:.2g} %", medium.walk->scatterings,
+                                     100 * length.error / length.value),
+                         watch.seconds()});
     } else {
         parts.push_back({walk, false, "the form of the medium needs none"});
     }

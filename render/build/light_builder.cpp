@@ -2,7 +2,8 @@
 
 namespace scree {
 
-Light make_light(const LightDescription& description, const std::shared_ptr<const EnvironmentMap>& map, const RenderSpace& space)
+Light make_light(const LightDescription& description, const std::shared_ptr<const EnvironmentMap>& map,
+                 const RenderSpace& space)
 {
     using Kind = LightDescription::Kind;
     Light light;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/lights/light.h"
 #include "base/render_space.h"
+#include "render/lights/light.h"
 #include "render/scene/scene_description.h"
 
 #include <memory>
@@ -9,6 +9,7 @@
 namespace scree {
 
 /// A light in render coordinates. map: of an environment light, which is read apart as frames share it.
-Light make_light(const LightDescription& description, const std::shared_ptr<const EnvironmentMap>& map, const RenderSpace& space);
+Light make_light(const LightDescription& description, const std::shared_ptr<const EnvironmentMap>& map,
+                 const RenderSpace& space);
 
 } // namespace scree

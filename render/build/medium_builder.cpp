@@ -7,42 +7,57 @@
 
 #include <fmt/format.h>
 
-
 namespace scree {
 
 namespace {
 
 VdbMediumOptions vdb_options(const MediumDescription& medium)
 {
-    return {medium.density, medium.albedo_grid, medium.g_grid, {medium.sigma_t, medium.albedo, medium.g, medium.nearest}, {}};
+    return {medium.density,
+            medium.albedo_grid,
+            medium.g_grid,
+            {medium.sigma_t, medium.albedo, medium.g, medium.nearest},
+            {}};
 }
 
 /// A name for messages: the file's.
-std::string name_of(const MediumDescription& medium) { return (medium.mesh.empty() ? medium.vdb : medium.mesh).filename().string(); }
+std::string name_of(const MediumDescription& medium)
+{
+    return (medium.mesh.empty() ? medium.vdb : medium.mesh).filename().string();
+}
 
-/// Places are doubles of about the size of the region: a way much below 2^-53 of that is none, and light leaves too soon.
-void warn_if_too_dense(const MediumDescription& medium, const Imath::Box3d& bounds, double unit, std::vector<std::string>& warnings)
+/// Places are doubles of about the size of the region: a way much below 2^-53 of that is none, and light leaves too
+/// soon.
+void warn_if_too_dense(const MediumDescription& medium, const Imath::Box3d& bounds, double unit,
+                       std::vector<std::string>& warnings)
 {
     constexpr double least = 0x1p-46; // mean free paths, of the region's size: at 2^-47 nothing was seen yet
     const double size = bounds.size().length(), sigma_t = max_component(medium.sigma_t) * unit;
     if (!(sigma_t * size * least > 1)) return;
-    warnings.push_back(fmt::format("the mean free path of '{}' is {:.2g} of its size: places cannot tell so small a way, and it looks too bright", name_of(medium), 1 / (sigma_t * size)));
+    warnings.push_back(fmt::format(
+        "the mean free path of '{}' is {:.2g} of its size: places cannot tell so small a way, and it looks too bright",
+        name_of(medium), 1 / (sigma_t * size)));
 }
 
 } // namespace
 
 void MediumBuilder::refuse_overlaps(const World& world) const
 {
-    // A path samples media that it is in one after the other; two whose sigma_t depends on the channel would not know of each other.
+    // A path samples media that it is in one after the other; two whose sigma_t depends on the channel would not know
+    // of each other.
     for (size_t i = 0; i < world.regions.size(); ++i) {
         for (size_t j = 0; j < i; ++j) {
             const MediumRegion &a = world.regions[i], &b = world.regions[j];
             const Imath::Box3d x = a.bounds(), y = b.bounds();
             bool overlap = true; // not only at a face
-            for (int axis = 0; axis < 3; ++axis) overlap = overlap && x.min[axis] < y.max[axis] && y.min[axis] < x.max[axis];
+            for (int axis = 0; axis < 3; ++axis)
+                overlap = overlap && x.min[axis] < y.max[axis] && y.min[axis] < x.max[axis];
             if (a.is_achromatic() || b.is_achromatic() || !overlap) continue;
-            throw InputError(scene_.file.string() + ": /medium", fmt::format("'{}' and '{}', of both of which the extinction depends on the channel, within one box", a.name, b.name),
-                             "media apart from each other, or one of them with the same extinction in all channels");
+            throw InputError(
+                scene_.file.string() + ": /medium",
+                fmt::format("'{}' and '{}', of both of which the extinction depends on the channel, within one box",
+                            a.name, b.name),
+                "media apart from each other, or one of them with the same extinction in all channels");
         }
     }
 }
@@ -50,7 +65,8 @@ void MediumBuilder::refuse_overlaps(const World& world) const
 MediumBuilder::MediumBuilder(const SceneDescription& scene) : scene_(scene)
 {
     if (scene.media.size() >= RegionTracer::most_regions) { // one is left for grains
-        throw InputError(scene.file.string() + ": /medium", fmt::format("{} media", scene.media.size()), fmt::format("fewer than {}", RegionTracer::most_regions));
+        throw InputError(scene.file.string() + ": /medium", fmt::format("{} media", scene.media.size()),
+                         fmt::format("fewer than {}", RegionTracer::most_regions));
     }
 }
 
@@ -94,7 +110,9 @@ uint64_t MediumBuilder::build(World& world, const TypeRequest& request, uint64_t
             }
             Made& made = grids_[i]; // a film of grains mostly stays in one space
             if (!made.grid || made.space.origin != world.space.origin || made.space.exponent != world.space.exponent) {
-                made = {std::make_shared<GridMedium>(read_vdb_medium(medium.vdb, vdb_options(medium), world.space, request.progress)), world.space, made.hash};
+                made = {std::make_shared<GridMedium>(
+                            read_vdb_medium(medium.vdb, vdb_options(medium), world.space, request.progress)),
+                        world.space, made.hash};
             }
             region.grid = made.grid;
             bytes += region.grid->bytes();
@@ -104,9 +122,11 @@ uint64_t MediumBuilder::build(World& world, const TypeRequest& request, uint64_t
         } else {
             const double unit = world.space.world_length(1);
             warn_if_too_dense(medium, region.bounds(), unit, request.warnings);
-            region.homogeneous = std::make_shared<HomogeneousMedium>(unit * V3d(medium.sigma_t.x, medium.sigma_t.y, medium.sigma_t.z), medium.albedo, medium.g);
+            region.homogeneous = std::make_shared<HomogeneousMedium>(
+                unit * V3d(medium.sigma_t.x, medium.sigma_t.y, medium.sigma_t.z), medium.albedo, medium.g);
         }
-        parts.push_back({part, true, fmt::format("{}, within {} triangles", what, region.triangles.size()), watch.seconds(), bytes});
+        parts.push_back({part, true, fmt::format("{}, within {} triangles", what, region.triangles.size()),
+                         watch.seconds(), bytes});
         hash = hash_mesh(meshes_[i], hash);
         world.regions.push_back(std::move(region));
     }

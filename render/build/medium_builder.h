@@ -3,8 +3,8 @@
 #include "base/progress.h"
 #include "ingest/meshes/triangle_mesh.h"
 #include "render/build/part_report.h"
-#include "render/scene/scene_description.h"
 #include "render/build/type_builder.h"
+#include "render/scene/scene_description.h"
 #include "render/trace/world.h"
 
 #include <algorithm>
@@ -24,7 +24,11 @@ public:
     /// Whether any medium that was read is somewhere.
     bool has_any() const { return count() > 0; }
     /// How many of those that were read are somewhere.
-    size_t count() const { return static_cast<size_t>(std::ranges::count_if(meshes_, [](const TriangleMesh& mesh) { return !mesh.triangles.empty(); })); }
+    size_t count() const
+    {
+        return static_cast<size_t>(
+            std::ranges::count_if(meshes_, [](const TriangleMesh& mesh) { return !mesh.triangles.empty(); }));
+    }
     /// Adds the media to `world`, whose space is set, and a report on each. Returns `hash` with their files mixed in.
     uint64_t build(World& world, const TypeRequest& request, uint64_t hash);
 

@@ -1,7 +1,7 @@
 #include "render/build/mixture_hash.h"
 
-#include "mixtures/read_mixture.h"
 #include "base/content_hash.h"
+#include "mixtures/read_mixture.h"
 
 #include <nlohmann/json.hpp>
 
@@ -11,7 +11,8 @@ namespace {
 
 uint64_t hash_files(const MixtureDescription& mixture, uint64_t hash)
 {
-    if (const auto* listed = std::get_if<ExplicitDescription>(&mixture.kind); listed && !listed->table.empty()) return hash_file(listed->table, hash);
+    if (const auto* listed = std::get_if<ExplicitDescription>(&mixture.kind); listed && !listed->table.empty())
+        return hash_file(listed->table, hash);
     if (const auto* grids = std::get_if<GridDescription>(&mixture.kind)) {
         for (const auto& field : grids->fields) hash = hash_file(field.file, hash);
     }

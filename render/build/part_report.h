@@ -9,9 +9,9 @@ namespace scree {
 
 /// What one part of a world cost, or why it is not there. For `--plan` and the statistics.
 struct PartReport {
-    std::string part;     ///< e.g. "exemplar 'sugar'"
+    std::string part; ///< e.g. "exemplar 'sugar'"
     bool built = false;
-    std::string reason;   ///< what was built, or why it was skipped
+    std::string reason; ///< what was built, or why it was skipped
     double seconds = 0;
     uint64_t bytes = 0;
 };

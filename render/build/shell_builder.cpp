@@ -12,18 +12,21 @@ namespace {
 
 constexpr double largest_radius = 1024; ///< mean free paths
 
-constexpr double tolerance = 0.05;      ///< within which a medium of grids counts as the same in a shell: a board of fields 49 mean free paths wide then is right to 0.2 %
+constexpr double tolerance = 0.05; ///< within which a medium of grids counts as the same in a shell: a board of fields
+                                   ///< 49 mean free paths wide then is right to 0.2 %
 constexpr double grain_tolerance = 0.1; ///< likewise where grains are, of which parts of a shell differ by chance
-constexpr double thin = 0.5;            ///< mean free paths over which what varies averages out
-constexpr double thin_grains = 16;      ///< likewise where grains are: cubes that hold hundreds of them differ by chance, which the medium is measured with
+constexpr double thin = 0.5; ///< mean free paths over which what varies averages out
+constexpr double thin_grains = 16; ///< likewise where grains are: cubes that hold hundreds of them differ by chance,
+                                   ///< which the medium is measured with
 constexpr double worthwhile_work = 0.95; ///< with shells, of that without: their tables are to be made as well
-constexpr double g_step = 1.3;          ///< of 1 - g, where it varies: the same for all scenes, so that they share tables
+constexpr double g_step = 1.3; ///< of 1 - g, where it varies: the same for all scenes, so that they share tables
 
 /// How many shells there is use for. inside: no shell in there is larger.
 size_t useful_shells(double sigma_t, double albedo, double g, double inside)
 {
     // Beyond some 20 decay lengths of a diffusing medium nothing is left to go on with; smaller shells do as well.
-    const double decay = std::sqrt(3 * (1 - albedo) * (1 - albedo * g)), most = decay > 0 ? std::min(largest_radius, std::max(1.0, 20 / decay)) : largest_radius;
+    const double decay = std::sqrt(3 * (1 - albedo) * (1 - albedo * g)),
+                 most = decay > 0 ? std::min(largest_radius, std::max(1.0, 20 / decay)) : largest_radius;
     const size_t all = static_cast<size_t>(std::ceil(std::log2(largest_radius) * Stf::steps_per_octave)) + 1;
     return static_cast<size_t>(Stf::largest(std::min(most, inside * sigma_t), all) + 1);
 }
@@ -36,7 +39,8 @@ std::vector<double> g_axis(double low, double high)
     high = std::clamp(high, -most, most);
     constexpr double rounded = 1e-6; // means of single precision
     if (high - low <= 4 * rounded) return {std::round(0.5 * (low + high) / rounded) * rounded};
-    const int first = static_cast<int>(std::floor(-std::log(1 - low) / std::log(g_step))), last = static_cast<int>(std::ceil(-std::log(1 - high) / std::log(g_step)));
+    const int first = static_cast<int>(std::floor(-std::log(1 - low) / std::log(g_step))),
+              last = static_cast<int>(std::ceil(-std::log(1 - high) / std::log(g_step)));
     std::vector<double> axis;
     for (int k = first; k <= last; ++k) axis.push_back(std::max(-most, 1 - std::pow(g_step, -k)));
     return axis;
@@ -56,7 +60,8 @@ StfOptions stf_options(Accuracy accuracy)
 std::shared_ptr<const ClearanceField> make_clearance(const World& world, const Progress& progress)
 {
     if (world.regions.empty()) return nullptr;
-    const bool among_grains = world.has_grains() && !std::ranges::all_of(world.regions, &MediumRegion::instead_of_grains);
+    const bool among_grains =
+        world.has_grains() && !std::ranges::all_of(world.regions, &MediumRegion::instead_of_grains);
     if (among_grains) return nullptr;
     std::vector<TriangleView> meshes;
     Imath::Box3d box;
@@ -71,10 +76,12 @@ std::shared_ptr<const ClearanceField> make_clearance(const World& world, const P
     static const TriangleMesh cube = box_mesh(V3d(-1), V3d(1));
     for (const Light& light : world.lights.lights()) {
         if (light.kind == LightKind::rectangle) {
-            corners.push_back({V3f(light.corner), V3f(light.corner + light.edge1), V3f(light.corner + light.edge2), V3f(light.corner + light.edge1 + light.edge2)});
+            corners.push_back({V3f(light.corner), V3f(light.corner + light.edge1), V3f(light.corner + light.edge2),
+                               V3f(light.corner + light.edge1 + light.edge2)});
             meshes.push_back({corners.back(), rectangle});
         } else if (light.kind == LightKind::sphere) {
-            if (box.intersects(Imath::Box3d(light.center - V3d(light.radius), light.center + V3d(light.radius)))) return nullptr; // a place may be within the cube
+            if (box.intersects(Imath::Box3d(light.center - V3d(light.radius), light.center + V3d(light.radius))))
+                return nullptr; // a place may be within the cube
             corners.emplace_back();
             for (const V3d& p : cube.positions) corners.back().emplace_back(light.center + light.radius * p);
             meshes.push_back({corners.back(), cube.triangles});
@@ -83,7 +90,8 @@ std::shared_ptr<const ClearanceField> make_clearance(const World& world, const P
     return std::make_shared<ClearanceField>(meshes, box, progress);
 }
 
-void add_shells(const ShellChoice& choice, StfCache& cache, World& world, std::vector<PartReport>& parts, std::vector<std::string>& remarks, const Progress& progress)
+void add_shells(const ShellChoice& choice, StfCache& cache, World& world, std::vector<PartReport>& parts,
+                std::vector<std::string>& remarks, const Progress& progress)
 {
     for (MediumRegion& region : world.regions) {
         const std::string part = "shells of '" + region.name + "'";
@@ -105,25 +113,35 @@ void add_shells(const ShellChoice& choice, StfCache& cache, World& world, std::v
             albedo = max_component(region.homogeneous->albedo());
             g_low = g_high = region.homogeneous->phase().mean_cosine();
         } else {
-            pyramid = std::make_unique<MediumPyramid>(*region.grid, box, region.instead_of_grains ? grain_tolerance : tolerance, region.instead_of_grains ? thin_grains : thin, progress);
+            pyramid = std::make_unique<MediumPyramid>(*region.grid, box,
+                                                      region.instead_of_grains ? grain_tolerance : tolerance,
+                                                      region.instead_of_grains ? thin_grains : thin, progress);
             const MediumPyramid::Extremes& extremes = pyramid->extremes();
             sigma_t = extremes.sigma_t_high;
             albedo = extremes.albedo_high;
             g_low = extremes.g_low;
             g_high = extremes.g_high;
         }
-        const size_t count = useful_shells(sigma_t, albedo, g_low, std::min(0.5 * std::min({box.size().x, box.size().y, box.size().z}), world.clearance->largest()));
+        const size_t count = useful_shells(
+            sigma_t, albedo, g_low,
+            std::min(0.5 * std::min({box.size().x, box.size().y, box.size().z}), world.clearance->largest()));
         if (count == 0 || Stf::radius(count - 1) < choice.least) {
-            skip(count == 0 ? "none fits: no place is a mean free path away from all faces" : fmt::format("the largest has {:.3g} mean free paths, of use are {:g} and more", Stf::radius(count - 1), choice.least));
+            skip(count == 0 ? "none fits: no place is a mean free path away from all faces"
+                            : fmt::format("the largest has {:.3g} mean free paths, of use are {:g} and more",
+                                          Stf::radius(count - 1), choice.least));
             continue;
         }
         std::string forecast;
         if (choice.must_pay && pyramid && !region.instead_of_grains) {
             const ShellForecast walks = forecast_shells(*region.grid, *pyramid, box, *world.clearance, count, progress);
             const double work = walks.work(world.lights.any_sampled());
-            forecast = fmt::format("in place of {:.0f} % of the scatterings, {:.2g} each, for {:.0f} % of the work", 100 * walks.part(), walks.each(), 100 * work);
+            forecast = fmt::format("in place of {:.0f} % of the scatterings, {:.2g} each, for {:.0f} % of the work",
+                                   100 * walks.part(), walks.each(), 100 * work);
             if (!(work <= worthwhile_work)) {
-                parts.push_back({part, false, fmt::format("they would stand {}, of use are {:.0f} % and less", forecast, 100 * worthwhile_work), watch.seconds()});
+                parts.push_back(
+                    {part, false,
+                     fmt::format("they would stand {}, of use are {:.0f} % and less", forecast, 100 * worthwhile_work),
+                     watch.seconds()});
                 continue;
             }
             forecast = "; " + forecast;
@@ -147,7 +165,9 @@ void add_shells(const ShellChoice& choice, StfCache& cache, World& world, std::v
             for (const double g : g_axis(g_low, g_high)) add_stf(g, nullptr);
             region.shells = std::make_shared<MediumShells>(stfs, std::move(pyramid), count, choice.form);
         }
-        parts.push_back({part, true, fmt::format("{} of up to {:.4g} mean free paths for {} values of g, {} made now{}", count, Stf::radius(count - 1), stfs.size(), computed, forecast),
+        parts.push_back({part, true,
+                         fmt::format("{} of up to {:.4g} mean free paths for {} values of g, {} made now{}", count,
+                                     Stf::radius(count - 1), stfs.size(), computed, forecast),
                          watch.seconds(), region.shells->bytes()});
     }
 }

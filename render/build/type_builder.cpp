@@ -1,8 +1,8 @@
 #include "render/build/type_builder.h"
 
+#include "base/content_hash.h"
 #include "render/grains/shape_source.h"
 #include "render/gsdf/gsdf_cache.h"
-#include "base/content_hash.h"
 
 #include <fmt/format.h>
 
@@ -39,7 +39,8 @@ void TypeBuilder::add_exemplar(const GrainTypeDescription& type, Shape& shape, c
     const Stopwatch watch;
     if (!shape.exemplar) shape.exemplar = make_exemplar(type);
     const std::string source = type.library ? fmt::format(" of the library's {}", type.library->name) : "";
-    request.parts.push_back({part, true, fmt::format("{} triangles{}", shape.exemplar->triangle_count(), source), watch.seconds(), shape.exemplar->bytes()});
+    request.parts.push_back({part, true, fmt::format("{} triangles{}", shape.exemplar->triangle_count(), source),
+                             watch.seconds(), shape.exemplar->bytes()});
 }
 
 void TypeBuilder::add_gsdf(const GrainTypeDescription& type, Shape& shape, const TypeRequest& request)
@@ -62,16 +63,18 @@ void TypeBuilder::add_gsdf(const GrainTypeDescription& type, Shape& shape, const
     std::string how = "made already, for another type or frame";
     if (!gsdf) {
         const bool now = request.precompute == Precompute::now;
-        const FoundGsdf found = now ? find_gsdf(source, options, cache_folder(), request.progress) : stored_gsdf(source, options, cache_folder());
+        const FoundGsdf found = now ? find_gsdf(source, options, cache_folder(), request.progress)
+                                    : stored_gsdf(source, options, cache_folder());
         if (!found.remark.empty()) request.warnings.push_back(found.remark);
         if (!found.gsdf) {
-            request.parts.push_back({part, true, fmt::format("to be traced to an error of {:g} %; not in the cache", 100 * options.error)});
+            request.parts.push_back(
+                {part, true, fmt::format("to be traced to an error of {:g} %; not in the cache", 100 * options.error)});
             return;
         }
         gsdf = found.gsdf;
         const GsdfQuality& quality = gsdf->data().quality;
-        how = fmt::format("{}, {:.2g} paths, error {:.2g} %", found.computed ? "traced" : "from the cache", static_cast<double>(quality.paths),
-                          100 * quality.density_error);
+        how = fmt::format("{}, {:.2g} paths, error {:.2g} %", found.computed ? "traced" : "from the cache",
+                          static_cast<double>(quality.paths), 100 * quality.density_error);
         if (const std::string doubt = doubt_of(quality, options.error); !doubt.empty()) {
             request.warnings.push_back(fmt::format("the scattering of '{}': {}", type.name, doubt));
         }
@@ -80,14 +83,15 @@ void TypeBuilder::add_gsdf(const GrainTypeDescription& type, Shape& shape, const
     request.parts.push_back({part, true, how, watch.seconds(), gsdf->bytes()});
 }
 
-uint64_t TypeBuilder::build(const std::vector<GrainTypeDescription>& types, const std::vector<uint8_t>& used, const TypeRequest& request,
-                            World& world, uint64_t hash)
+uint64_t TypeBuilder::build(const std::vector<GrainTypeDescription>& types, const std::vector<uint8_t>& used,
+                            const TypeRequest& request, World& world, uint64_t hash)
 {
     for (size_t i = 0; i < types.size(); ++i) {
         const GrainTypeDescription& type = types[i];
         GrainType made{type.name, {}, nullptr};
         if (!used[i]) { // nor is anything made because its material would need it
-            for (const char* part : {"exemplar", "gsdf"}) request.parts.push_back({fmt::format("{} '{}'", part, type.name), false, "no grain has this type"});
+            for (const char* part : {"exemplar", "gsdf"})
+                request.parts.push_back({fmt::format("{} '{}'", part, type.name), false, "no grain has this type"});
         } else {
             made.material = type.material;
             made.material.absorption *= static_cast<Real>(world.space.world_length(1));
@@ -96,8 +100,10 @@ uint64_t TypeBuilder::build(const std::vector<GrainTypeDescription>& types, cons
             if (is_new) shape.hash = hash_shape(shape_source(type));
             add_exemplar(type, shape, request);
             add_gsdf(type, shape, request);
-            if (request.plan.has_exemplars()) made.exemplar = shape.exemplar;
-            else shape.exemplar = nullptr; // was only needed to trace the GSDF
+            if (request.plan.has_exemplars())
+                made.exemplar = shape.exemplar;
+            else
+                shape.exemplar = nullptr; // was only needed to trace the GSDF
             made.gsdf = shape.gsdf;
             hash = mix64(hash ^ shape.hash);
         }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/progress.h"
-#include "render/gsdf/gsdf_builder.h"
 #include "render/build/part_report.h"
+#include "render/gsdf/gsdf_builder.h"
 #include "render/scene/scene_description.h"
 #include "render/scene/transport_plan.h"
 #include "render/trace/world.h"
@@ -38,8 +38,8 @@ public:
 
     /// Adds every type to `world` (whose space is set), what is needed of those used, and a report on each part.
     /// Returns `hash` with the shapes mixed in. Throws InputError, or Cancelled.
-    uint64_t build(const std::vector<GrainTypeDescription>& types, const std::vector<uint8_t>& used, const TypeRequest& request,
-                   World& world, uint64_t hash);
+    uint64_t build(const std::vector<GrainTypeDescription>& types, const std::vector<uint8_t>& used,
+                   const TypeRequest& request, World& world, uint64_t hash);
 
 private:
     struct Shape {

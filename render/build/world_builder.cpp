@@ -1,12 +1,12 @@
 #include "render/build/world_builder.h"
 
+#include "base/content_hash.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "ingest/meshes/mesh_hash.h"
 #include "ingest/meshes/triangle_mesh.h"
 #include "ingest/particles/vdb_points.h"
 #include "mixtures/mixture_series.h"
-#include "base/content_hash.h"
 #include "render/build/fill_builder.h"
 #include "render/build/grain_facts.h"
 #include "render/build/light_builder.h"
@@ -78,7 +78,8 @@ V3d scene_origin(const std::vector<V3d>& points, const Bounds& bounds)
     return reach > far * width && width > 0 ? median : middle;
 }
 
-/// Centres the scene on what its grains were packed into, so that the fill and the list of its spheres are the same numbers.
+/// Centres the scene on what its grains were packed into, so that the fill and the list of its spheres are the same
+/// numbers.
 void set_domain(const Imath::Box3d& domain, World& world)
 {
     world.space = space_of(domain);
@@ -129,7 +130,8 @@ std::optional<MixtureSeries> WorldBuilder::Impl::make_mixtures() const
     std::vector<std::string> names;
     for (const GrainTypeDescription& type : scene.types) names.push_back(type.name);
     std::map<int32_t, std::string> file_types = scene.assembly->types;
-    if (scene.assembly->dump.empty()) { // spheres of the scene file: read_spheres numbers types by their place in the list
+    if (scene.assembly->dump
+            .empty()) { // spheres of the scene file: read_spheres numbers types by their place in the list
         for (size_t i = 0; i < names.size(); ++i) file_types[static_cast<int32_t>(i)] = names[i];
     }
     return MixtureSeries(scene.mixture, names, file_types, scene.assembly->place + "/types");
@@ -208,7 +210,8 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, const TypeRequest& r
         grains.spheres.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), r});
         grains.type_codes.push_back(static_cast<uint8_t>(type));
         grains.ids.push_back(frame.id[i]);
-        if (!frame.orientation.empty() && world.types[type].exemplar) grains.orientation.push_back(frame.orientation[i]);
+        if (!frame.orientation.empty() && world.types[type].exemplar)
+            grains.orientation.push_back(frame.orientation[i]);
     };
     grains.spheres.reserve(frame.size() + 1);
     grains.type_codes.reserve(frame.size());
@@ -228,7 +231,8 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, const TypeRequest& r
     }
     grains.widen();
     if (without_size > 0) frame_warnings.push_back(fmt::format("{} grains of radius 0 are left out", without_size));
-    hash = hash_vector(grains.type_codes, hash_vector(frame.radius, hash_vector(frame.position, hash_vector(frame.id, hash))));
+    hash = hash_vector(grains.type_codes,
+                       hash_vector(frame.radius, hash_vector(frame.position, hash_vector(frame.id, hash))));
     hash = hash_vector(frame.orientation, hash);
     return grains;
 }
@@ -254,7 +258,8 @@ void WorldBuilder::Impl::make_fill(const TypeRequest& request, World& world)
 
 TriangleMesh WorldBuilder::Impl::read_surface(const SurfaceDescription& surface) const
 {
-    return surface.material.transmits() ? read_closed_mesh(surface.mesh, "as its material is a dielectric") : read_mesh(surface.mesh);
+    return surface.material.transmits() ? read_closed_mesh(surface.mesh, "as its material is a dielectric")
+                                        : read_mesh(surface.mesh);
 }
 
 void WorldBuilder::Impl::make_surfaces(World& world)
@@ -286,8 +291,11 @@ void WorldBuilder::Impl::make_surfaces(World& world)
         hash = hash_mesh(surfaces[i], hash);
         world.surfaces.push_back(std::move(surface));
     }
-    if (surfaces.empty()) parts.push_back({"surfaces", false, "the scene has none"});
-    else parts.push_back({"surfaces", true, fmt::format("{} meshes, {} triangles", surfaces.size(), triangles), watch.seconds(), bytes});
+    if (surfaces.empty())
+        parts.push_back({"surfaces", false, "the scene has none"});
+    else
+        parts.push_back({"surfaces", true, fmt::format("{} meshes, {} triangles", surfaces.size(), triangles),
+                         watch.seconds(), bytes});
 }
 
 /// The map of an environment light, read once; null for others.
@@ -297,8 +305,10 @@ std::shared_ptr<const EnvironmentMap> WorldBuilder::Impl::read_map(size_t light)
     if (description.kind != LightDescription::Kind::environment) return nullptr;
     auto& map = maps[light];
     const Stopwatch watch;
-    if (!map) map = std::make_shared<EnvironmentMap>(read_environment(description.file, description.up, description.scale));
-    parts.push_back({"environment map", true, description.file.filename().string(), watch.seconds(), map->texels().size() * sizeof(Color)});
+    if (!map)
+        map = std::make_shared<EnvironmentMap>(read_environment(description.file, description.up, description.scale));
+    parts.push_back({"environment map", true, description.file.filename().string(), watch.seconds(),
+                     map->texels().size() * sizeof(Color)});
     hash = hash_vector(map->texels(), hash);
     return map;
 }
@@ -307,7 +317,9 @@ LightSet WorldBuilder::Impl::make_lights(const World& world)
 {
     std::vector<Light> lights;
     bool point = false, glass = false;
-    if (std::ranges::none_of(scene.lights, [](const LightDescription& light) { return light.kind == LightDescription::Kind::environment; })) {
+    if (std::ranges::none_of(scene.lights, [](const LightDescription& light) {
+            return light.kind == LightDescription::Kind::environment;
+        })) {
         parts.push_back({"environment map", false, "no light has one"});
     }
     for (size_t i = 0; i < scene.lights.size(); ++i) {
@@ -319,7 +331,8 @@ LightSet WorldBuilder::Impl::make_lights(const World& world)
     }
     for (const Surface& surface : world.surfaces) glass |= surface.material.transmits() || surface.material.is_delta();
     if (point && glass) {
-        frame_warnings.push_back("a distant light of angle 0 cannot be found by paths through glass: its caustics are missing");
+        frame_warnings.push_back(
+            "a distant light of angle 0 cannot be found by paths through glass: its caustics are missing");
     }
     double radius2 = world.has_grains() ? 1.0 : 0.0;
     for (const Surface& surface : world.surfaces) {
@@ -334,10 +347,12 @@ LightSet WorldBuilder::Impl::make_lights(const World& world)
 WorldBuilder::WorldBuilder(SceneDescription scene) : impl_(std::make_unique<Impl>(std::move(scene)))
 {
     if (impl_->scene.types.size() > 256) {
-        throw InputError(impl_->scene.file.string() + ": /grains/types", fmt::format("{} grain types", impl_->scene.types.size()), "at most 256");
+        throw InputError(impl_->scene.file.string() + ": /grains/types",
+                         fmt::format("{} grain types", impl_->scene.types.size()), "at most 256");
     }
     const auto& assembly = impl_->scene.assembly;
-    if (assembly && !assembly->dump.empty() && !is_points_file(assembly->dump)) impl_->series = DumpSeries::open(assembly->dump);
+    if (assembly && !assembly->dump.empty() && !is_points_file(assembly->dump))
+        impl_->series = DumpSeries::open(assembly->dump);
     impl_->mixtures = impl_->make_mixtures();
 }
 
@@ -380,8 +395,8 @@ std::shared_ptr<const World> WorldBuilder::build(size_t frame, const Progress& p
         const uint64_t read = spheres.frame.size();
         const double read_seconds = watch.seconds();
         world->grains = impl_->make_grains(std::move(spheres), request, *world);
-        impl_->parts.push_back({"grains", true, fmt::format("{} of {} spheres read", world->grains.size(), read), read_seconds,
-                                world->grains.bytes()});
+        impl_->parts.push_back({"grains", true, fmt::format("{} of {} spheres read", world->grains.size(), read),
+                                read_seconds, world->grains.bytes()});
     } else {
         impl_->parts.push_back({"grains", false, "the scene has none"});
     }
@@ -389,7 +404,8 @@ std::shared_ptr<const World> WorldBuilder::build(size_t frame, const Progress& p
     impl_->hash = impl_->media.build(*world, request, impl_->hash);
     if (impl_->scene.media.empty()) impl_->parts.push_back({"medium", false, "the scene has none"});
     if (impl_->plan.replaces_all && (impl_->scene.integrator.grain_depth || impl_->scene.integrator.grain_flights)) {
-        impl_->frame_warnings.push_back("grain_depth and grain_flights have no effect with vpt and stf, which trace no grains");
+        impl_->frame_warnings.push_back(
+            "grain_depth and grain_flights have no effect with vpt and stf, which trace no grains");
     }
     impl_->medium_depth = make_planned_medium(request, *world);
     world->lights = impl_->make_lights(*world);

@@ -2,8 +2,8 @@
 
 #include "ingest/particles/dump_series.h"
 #include "render/build/part_report.h"
-#include "render/scene/scene_description.h"
 #include "render/build/type_builder.h"
+#include "render/scene/scene_description.h"
 #include "render/trace/world.h"
 
 #include <memory>
@@ -30,10 +30,12 @@ public:
     std::vector<std::string> warnings() const;
 
     /// Reads frame `frame` and everything it needs. Throws InputError, or Cancelled from within what is precomputed.
-    std::shared_ptr<const World> build(size_t frame, const Progress& progress = {}, Precompute precompute = Precompute::now);
+    std::shared_ptr<const World> build(size_t frame, const Progress& progress = {},
+                                       Precompute precompute = Precompute::now);
     /// Of the last world built.
     const TransportPlan& plan() const;
-    /// Mean radii below every face from where on a medium stands for grains of the last world built; nothing: none does.
+    /// Mean radii below every face from where on a medium stands for grains of the last world built; nothing: none
+    /// does.
     std::optional<double> medium_depth() const;
     /// The parts of the last world built, in order.
     const std::vector<PartReport>& parts() const;

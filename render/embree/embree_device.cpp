@@ -25,10 +25,7 @@ EmbreeDevice::EmbreeDevice() : device_(rtcNewDevice(nullptr))
     rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);
 }
 
-EmbreeDevice::~EmbreeDevice()
-{
-    rtcReleaseDevice(device_);
-}
+EmbreeDevice::~EmbreeDevice() { rtcReleaseDevice(device_); }
 
 void EmbreeDevice::check(const char* what) const
 {

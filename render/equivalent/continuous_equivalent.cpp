@@ -16,8 +16,9 @@ void match(ContinuousEquivalent& medium, double diffusivity, double transport_le
 {
     double g = 1 - diffusivity / (transport_length * transport_length);
     if (!(g >= least_g && g <= most_g)) {
-        medium.doubt = fmt::format("no medium has D {:.3g} with a transport length of {:.3g}; the asymmetry {:.3g} is taken as {:.3g}", diffusivity, transport_length, g,
-                                   std::clamp(g, least_g, most_g));
+        medium.doubt = fmt::format(
+            "no medium has D {:.3g} with a transport length of {:.3g}; the asymmetry {:.3g} is taken as {:.3g}",
+            diffusivity, transport_length, g, std::clamp(g, least_g, most_g));
         g = std::clamp(g, least_g, most_g);
     }
     medium.g = g;
@@ -26,18 +27,22 @@ void match(ContinuousEquivalent& medium, double diffusivity, double transport_le
 
 void match_decay(ContinuousEquivalent& medium, const PackingWalk& walk)
 {
-    // What a half-space reflects follows from albedo and g alone: so the brightest channel keeps its own, and it is sigma_t that
-    // gives it the decay of the packing (none is lost where nothing decays). The others then need other albedos.
+    // What a half-space reflects follows from albedo and g alone: so the brightest channel keeps its own, and it is
+    // sigma_t that gives it the decay of the packing (none is lost where nothing decays). The others then need other
+    // albedos.
     const MixtureMoments& moments = medium.moments;
-    const int brightest = moments.albedo.x >= moments.albedo.y ? (moments.albedo.x >= moments.albedo.z ? 0 : 2) : (moments.albedo.y >= moments.albedo.z ? 1 : 2);
+    const int brightest = moments.albedo.x >= moments.albedo.y ? (moments.albedo.x >= moments.albedo.z ? 0 : 2)
+                                                               : (moments.albedo.y >= moments.albedo.z ? 1 : 2);
     const double wanted = walk.decay[static_cast<size_t>(brightest)].kappa.value;
-    if (const double kappa = decay_constant(moments.albedo[brightest], medium.g); wanted > 0 && kappa > 0) medium.sigma_t = wanted / kappa;
+    if (const double kappa = decay_constant(moments.albedo[brightest], medium.g); wanted > 0 && kappa > 0)
+        medium.sigma_t = wanted / kappa;
     for (int c = 0; c < 3; ++c) {
         const double kappa = walk.decay[static_cast<size_t>(c)].kappa.value / medium.sigma_t;
         if (!(kappa > 0)) continue; // loses nothing
         medium.albedo[c] = albedo_of_decay(std::min(kappa, 1.0), medium.g);
         if (medium.albedo[c] < least_albedo) {
-            medium.doubt = fmt::format("light dies away by {:.3g} a mean free path, which no albedo makes it do", kappa);
+            medium.doubt =
+                fmt::format("light dies away by {:.3g} a mean free path, which no albedo makes it do", kappa);
             medium.albedo[c] = least_albedo;
         }
     }

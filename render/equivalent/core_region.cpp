@@ -17,12 +17,14 @@ constexpr double voxels_deep = 6; ///< along the depth of a heap's core
 
 void check_depth(const char* place, double depth)
 {
-    if (!(depth >= 0) || !std::isfinite(depth)) throw InputError(place, fmt::format("a depth of {}", depth), "a length, 0 or more");
+    if (!(depth >= 0) || !std::isfinite(depth))
+        throw InputError(place, fmt::format("a depth of {}", depth), "a length, 0 or more");
 }
 
 } // namespace
 
-std::optional<RegionSurface> inset_of_mesh(std::span<const V3f> positions, std::span<const std::array<uint32_t, 3>> triangles, double depth,
+std::optional<RegionSurface> inset_of_mesh(std::span<const V3f> positions,
+                                           std::span<const std::array<uint32_t, 3>> triangles, double depth,
                                            const Progress& progress)
 {
     check_depth("inset of a mesh", depth);
@@ -33,10 +35,14 @@ std::optional<RegionSurface> inset_of_mesh(std::span<const V3f> positions, std::
     Imath::Box3d bounds;
     for (const auto& t : triangles)
         for (const uint32_t v : t) {
-            if (v >= positions.size()) throw InputError("inset of a mesh", fmt::format("vertex {}", v), fmt::format("below {}", positions.size()));
+            if (v >= positions.size())
+                throw InputError("inset of a mesh", fmt::format("vertex {}", v),
+                                 fmt::format("below {}", positions.size()));
             bounds.extendBy(V3d(positions[v]));
         }
-    if (!is_balanced(surface)) throw InputError("inset of a mesh", "a mesh that is not closed", "every edge with a face on either side", "see scree info");
+    if (!is_balanced(surface))
+        throw InputError("inset of a mesh", "a mesh that is not closed", "every edge with a face on either side",
+                         "see scree info");
     if (depth == 0) return surface;
     const V3d size = bounds.size();
     if (2 * depth >= std::min({size.x, size.y, size.z})) return std::nullopt;
@@ -51,7 +57,8 @@ std::optional<RegionSurface> inset_of_mesh(std::span<const V3f> positions, std::
     return inset;
 }
 
-std::optional<RegionSurface> core_of_spheres(std::span<const GrainStore::Sphere> spheres, double depth, const Progress& progress, const HeapOptions& options)
+std::optional<RegionSurface> core_of_spheres(std::span<const GrainStore::Sphere> spheres, double depth,
+                                             const Progress& progress, const HeapOptions& options)
 {
     check_depth("core of a heap", depth);
     const double radius = volume_weighted_radius(spheres, {});
@@ -60,7 +67,8 @@ std::optional<RegionSurface> core_of_spheres(std::span<const GrainStore::Sphere>
     const VoxelLattice lattice{V3d(0), options.voxel * radius};
     // The deeper, the smoother: finer voxels would tell no more.
     const double voxel = std::max(lattice.voxel, (closing + depth) / voxels_deep);
-    return inset_of_hull(dilated_spheres(spheres, closing, lattice, progress), closing + depth, {lattice.origin, voxel}, progress);
+    return inset_of_hull(dilated_spheres(spheres, closing, lattice, progress), closing + depth, {lattice.origin, voxel},
+                         progress);
 }
 
 } // namespace scree

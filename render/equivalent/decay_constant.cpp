@@ -7,10 +7,12 @@ namespace scree {
 
 namespace {
 
-/// Whether light with this profile would decay by itself: all pivots of the system, from the highest order down, are positive.
+/// Whether light with this profile would decay by itself: all pivots of the system, from the highest order down, are
+/// positive.
 bool is_positive_definite(double loss, double g, double kappa)
 {
-    // Pivots far up tend to l (1 + sqrt(1 - kappa^2)); orders beyond those that g reaches, and that make the start forgotten, do nothing.
+    // Pivots far up tend to l (1 + sqrt(1 - kappa^2)); orders beyond those that g reaches, and that make the start
+    // forgotten, do nothing.
     const double root = std::sqrt(std::max(0.0, (1 - kappa) * (1 + kappa)));
     const double reach = std::max(-30 / std::log(std::max(std::abs(g), 1e-10)), 30 / std::max(root, 1e-3));
     const int top = static_cast<int>(std::clamp(reach, 32.0, 100000.0));
@@ -18,7 +20,8 @@ bool is_positive_definite(double loss, double g, double kappa)
     const double log_g = std::log(std::max(std::abs(g), 1e-300));
     for (int l = top - 1; l >= 0; --l) {
         const double beside = (l + 1) * kappa;
-        const double magnitude = l == 0 ? 1 : std::exp(l * log_g), moment = g < 0 && l % 2 == 1 ? -magnitude : magnitude;
+        const double magnitude = l == 0 ? 1 : std::exp(l * log_g),
+                     moment = g < 0 && l % 2 == 1 ? -magnitude : magnitude;
         pivot = (2 * l + 1) * (1 - moment + loss * moment) - beside * beside / pivot;
         if (!(pivot > 0)) return false;
     }

@@ -17,7 +17,7 @@ struct GrainFields::Grids {
     };
 
     double voxel = 0;
-    std::vector<uint8_t> codes;     ///< of `types`, ascending
+    std::vector<uint8_t> codes; ///< of `types`, ascending
     std::vector<Type> types;
     openvdb::FloatGrid::Ptr pack_rate; ///< of all types
 };

@@ -21,15 +21,16 @@ using Leaf = openvdb::FloatTree::LeafNodeType;
 using Spheres = std::span<const GrainStore::Sphere>;
 
 constexpr int block = Leaf::DIM;
-constexpr double largest_point = 0.5; ///< radius in voxels up to which a sphere is a point; alone it fills a fifth of its voxel
+constexpr double largest_point =
+    0.5; ///< radius in voxels up to which a sphere is a point; alone it fills a fifth of its voxel
 
 /// Points of a cubic lattice around a large sphere's centre, each with the part of its cell that is inside, roughly.
 struct Filling {
     uint32_t sphere = 0;
-    int reach = 0;      ///< points along an axis to either side
-    double step = 0;    ///< of the lattice, in voxels: at most 1/2, so that the sum of splines is smooth
-    double radius = 0;  ///< in steps
-    double scale = 1;   ///< makes the weights' sum 1
+    int reach = 0; ///< points along an axis to either side
+    double step = 0; ///< of the lattice, in voxels: at most 1/2, so that the sum of splines is smooth
+    double radius = 0; ///< in steps
+    double scale = 1; ///< makes the weights' sum 1
 
     Filling(uint32_t index, double radius_in_voxels) : sphere(index)
     {
@@ -104,8 +105,10 @@ public:
             for (int k = 0; k < 3; ++k) c[k] -= static_cast<double>(bin.block[static_cast<size_t>(k)] * block);
             const double r = radius(entry.sphere);
             const double moment[3] = {r * r, r * r * r, r * r * r * r};
-            if (r > largest_point) fill(c, moment, filling(entry.sphere), to);
-            else add_point(c, moment, to);
+            if (r > largest_point)
+                fill(c, moment, filling(entry.sphere), to);
+            else
+                add_point(c, moment, to);
         }
     }
 
@@ -119,7 +122,8 @@ private:
 
     const Filling& filling(uint32_t sphere) const
     {
-        return *std::lower_bound(fillings_.begin(), fillings_.end(), sphere, [](const Filling& f, uint32_t s) { return f.sphere < s; });
+        return *std::lower_bound(fillings_.begin(), fillings_.end(), sphere,
+                                 [](const Filling& f, uint32_t s) { return f.sphere < s; });
     }
 
     static void fill(const V3d& c, const double (&moment)[3], const Filling& f, TypeSums& to)
@@ -127,8 +131,10 @@ private:
         // Only the points that give to this block.
         int first[3], last[3];
         for (int k = 0; k < 3; ++k) {
-            first[k] = std::max(-f.reach, static_cast<int>(std::ceil(std::max((-1.5 - c[k]) / f.step, -1.0 - f.reach))));
-            last[k] = std::min(f.reach, static_cast<int>(std::floor(std::min((block + 0.5 - c[k]) / f.step, 1.0 + f.reach))));
+            first[k] =
+                std::max(-f.reach, static_cast<int>(std::ceil(std::max((-1.5 - c[k]) / f.step, -1.0 - f.reach))));
+            last[k] =
+                std::min(f.reach, static_cast<int>(std::floor(std::min((block + 0.5 - c[k]) / f.step, 1.0 + f.reach))));
         }
         for (int x = first[0]; x <= last[0]; ++x)
             for (int y = first[1]; y <= last[1]; ++y)
@@ -172,7 +178,8 @@ private:
     std::vector<Filling> fillings_; ///< of the large spheres, ascending
 };
 
-std::unique_ptr<Leaf> make_leaf(const SphereBins::Voxel& at, const std::array<double, Leaf::SIZE>& values, double factor)
+std::unique_ptr<Leaf> make_leaf(const SphereBins::Voxel& at, const std::array<double, Leaf::SIZE>& values,
+                                double factor)
 {
     const auto first = [&](size_t k) { return static_cast<int>(at[k] * block); };
     auto leaf = std::make_unique<Leaf>(openvdb::Coord(first(0), first(1), first(2)), 0.0f, false);
@@ -208,14 +215,19 @@ openvdb::FloatGrid::Ptr make_grid(const char* name)
 }
 
 /// The codes that spheres with a radius have, and each code's place among them.
-std::vector<uint8_t> codes_in_use(Spheres spheres, std::span<const uint8_t> type_codes, uint32_t type_count, std::vector<int>& place)
+std::vector<uint8_t> codes_in_use(Spheres spheres, std::span<const uint8_t> type_codes, uint32_t type_count,
+                                  std::vector<int>& place)
 {
     std::vector<int> used(256, 0);
     for (size_t i = 0; i < spheres.size(); ++i) {
         const auto& s = spheres[i];
-        if (type_codes[i] >= type_count) throw InputError("grain fields", fmt::format("type {} of grain {}", type_codes[i], i), fmt::format("below {}", type_count));
+        if (type_codes[i] >= type_count)
+            throw InputError("grain fields", fmt::format("type {} of grain {}", type_codes[i], i),
+                             fmt::format("below {}", type_count));
         if (!std::isfinite(s.x) || !std::isfinite(s.y) || !std::isfinite(s.z) || !std::isfinite(s.r))
-            throw InputError("grain fields", fmt::format("sphere {} at ({}, {}, {}) of radius {}", i, s.x, s.y, s.z, s.r), "finite numbers");
+            throw InputError("grain fields",
+                             fmt::format("sphere {} at ({}, {}, {}) of radius {}", i, s.x, s.y, s.z, s.r),
+                             "finite numbers");
         if (s.r > 0) used[type_codes[i]] = 1;
     }
     std::vector<uint8_t> codes;
@@ -242,25 +254,29 @@ double total(const openvdb::FloatGrid& grid)
 double value_at(const openvdb::FloatGrid& grid, const V3d& index)
 {
     // Far outside of what coordinates of voxels can be there is nothing.
-    for (int k = 0; k < 3; ++k) if (!(std::abs(index[k]) < 0x1p30)) return 0;
+    for (int k = 0; k < 3; ++k)
+        if (!(std::abs(index[k]) < 0x1p30)) return 0;
     return openvdb::tools::BoxSampler::sample(grid.tree(), openvdb::Vec3d(index.x, index.y, index.z));
 }
 
 } // namespace
 
-GrainFields make_grain_fields(Spheres spheres, std::span<const uint8_t> type_codes, uint32_t type_count, const GrainFieldOptions& options,
-                              const Progress& progress)
+GrainFields make_grain_fields(Spheres spheres, std::span<const uint8_t> type_codes, uint32_t type_count,
+                              const GrainFieldOptions& options, const Progress& progress)
 {
     if (type_codes.size() != spheres.size())
-        throw InputError("grain fields", fmt::format("{} type codes", type_codes.size()), fmt::format("one for each of {} spheres", spheres.size()));
+        throw InputError("grain fields", fmt::format("{} type codes", type_codes.size()),
+                         fmt::format("one for each of {} spheres", spheres.size()));
     const double asked = options.voxel != 0 ? options.voxel : options.voxel_radii;
-    if (!(asked > 0) || !std::isfinite(asked)) throw InputError("grain fields", fmt::format("a voxel of {}", asked), "a positive number");
+    if (!(asked > 0) || !std::isfinite(asked))
+        throw InputError("grain fields", fmt::format("a voxel of {}", asked), "a positive number");
 
     openvdb::initialize();
     auto grids = std::make_unique<GrainFields::Grids>();
     std::vector<int> place;
     grids->codes = codes_in_use(spheres, type_codes, type_count, place);
-    const double voxel = options.voxel != 0 ? options.voxel : options.voxel_radii * volume_weighted_radius(spheres, options.margin);
+    const double voxel =
+        options.voxel != 0 ? options.voxel : options.voxel_radii * volume_weighted_radius(spheres, options.margin);
     if (!grids->codes.empty()) grids->voxel = voxel;
     for (size_t type = 0; type < grids->codes.size(); ++type)
         grids->types.push_back({make_grid("m2"), make_grid("m3"), make_grid("m4")});
@@ -268,12 +284,14 @@ GrainFields make_grain_fields(Spheres spheres, std::span<const uint8_t> type_cod
     if (grids->codes.empty()) return GrainFields(std::move(grids));
 
     const Spreader spreader(spheres, type_codes, options.margin, voxel);
-    const SphereBins bins(static_cast<uint32_t>(spheres.size()), block,
-                          [&](uint32_t i, SphereBins::Voxel& first, SphereBins::Voxel& last) { return spreader.range(i, first, last); });
+    const SphereBins bins(
+        static_cast<uint32_t>(spheres.size()), block,
+        [&](uint32_t i, SphereBins::Voxel& first, SphereBins::Voxel& last) { return spreader.range(i, first, last); });
     if (progress.cancelled()) throw Cancelled();
 
     std::vector<BlockLeaves> leaves(bins.bins().size());
-    tbb::enumerable_thread_specific<std::vector<TypeSums>> workspaces([&] { return std::vector<TypeSums>(grids->codes.size()); });
+    tbb::enumerable_thread_specific<std::vector<TypeSums>> workspaces(
+        [&] { return std::vector<TypeSums>(grids->codes.size()); });
     std::atomic<uint64_t> done{0};
     tbb::parallel_for(size_t{0}, leaves.size(), [&](size_t i) {
         if (progress.cancelled()) return;
@@ -281,14 +299,16 @@ GrainFields make_grain_fields(Spheres spheres, std::span<const uint8_t> type_cod
         std::vector<TypeSums>& sums = workspaces.local();
         spreader.spread(bin, place, sums);
         leaves[i] = to_leaves(bin.block, voxel, sums);
-        if (const uint64_t n = ++done; n % 1024 == 0) progress.update("grain fields", static_cast<double>(n) / static_cast<double>(leaves.size()));
+        if (const uint64_t n = ++done; n % 1024 == 0)
+            progress.update("grain fields", static_cast<double>(n) / static_cast<double>(leaves.size()));
     });
     if (progress.cancelled()) throw Cancelled();
 
     for (BlockLeaves& b : leaves) {
         for (BlockLeaves::Type& t : b.types) {
             GrainFields::Grids::Type& to = grids->types[t.type];
-            for (size_t k = 0; k < 3; ++k) (k == 0 ? to.m2 : k == 1 ? to.m3 : to.m4)->tree().addLeaf(t.moment[k].release());
+            for (size_t k = 0; k < 3; ++k)
+                (k == 0 ? to.m2 : k == 1 ? to.m3 : to.m4)->tree().addLeaf(t.moment[k].release());
         }
         grids->pack_rate->tree().addLeaf(b.pack_rate.release());
     }
@@ -313,7 +333,10 @@ MomentDensity GrainFields::moments(uint8_t type, const V3d& place) const
     return {value_at(*t.m2, index), value_at(*t.m3, index), value_at(*t.m4, index)};
 }
 
-double GrainFields::pack_rate(const V3d& place) const { return grids_->voxel > 0 ? value_at(*grids_->pack_rate, place / grids_->voxel) : 0; }
+double GrainFields::pack_rate(const V3d& place) const
+{
+    return grids_->voxel > 0 ? value_at(*grids_->pack_rate, place / grids_->voxel) : 0;
+}
 
 MomentDensity GrainFields::totals(uint8_t type) const
 {
@@ -324,7 +347,10 @@ MomentDensity GrainFields::totals(uint8_t type) const
     return {total(*t.m2) * volume, total(*t.m3) * volume, total(*t.m4) * volume};
 }
 
-double GrainFields::sphere_volume() const { return total(*grids_->pack_rate) * grids_->voxel * grids_->voxel * grids_->voxel; }
+double GrainFields::sphere_volume() const
+{
+    return total(*grids_->pack_rate) * grids_->voxel * grids_->voxel * grids_->voxel;
+}
 uint64_t GrainFields::voxels() const { return grids_->pack_rate->activeVoxelCount(); }
 
 uint64_t GrainFields::bytes() const

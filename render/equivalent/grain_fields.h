@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/math.h"
 #include "base/progress.h"
 #include "render/grains/grain_store.h"
-#include "base/math.h"
 
 #include <cstdint>
 #include <memory>
@@ -28,9 +28,10 @@ struct MomentDensity {
 
 /// Sparse fields of pack rate and moments of the radius for each type of grain, in render coordinates.
 ///
-/// Value (i, j, k) belongs to the place (i, j, k) * voxel, the same lattice in each frame. Around its centre a sphere is spread with the weights
-/// of the quadratic B-spline, which sum to 1 (Hockney and Eastwood's triangular-shaped cloud); a sphere larger than half a voxel is spread
-/// from points that fill it. So the sum over the voxels is that of the spheres.
+/// Value (i, j, k) belongs to the place (i, j, k) * voxel, the same lattice in each frame. Around its centre a sphere
+/// is spread with the weights of the quadratic B-spline, which sum to 1 (Hockney and Eastwood's triangular-shaped
+/// cloud); a sphere larger than half a voxel is spread from points that fill it. So the sum over the voxels is that of
+/// the spheres.
 class GrainFields {
 public:
     struct Grids; ///< grain_field_grids.h: the OpenVDB grids
@@ -63,8 +64,9 @@ private:
 
 /// Spreads spheres into fields; the same bits on any number of threads, and in any unit that is 2^k of another.
 ///
-/// type_codes: one for each sphere, below type_count. Spheres without radius leave nothing. Throws InputError, Cancelled.
-GrainFields make_grain_fields(std::span<const GrainStore::Sphere> spheres, std::span<const uint8_t> type_codes, uint32_t type_count,
-                              const GrainFieldOptions& options, const Progress& progress);
+/// type_codes: one for each sphere, below type_count. Spheres without radius leave nothing. Throws InputError,
+/// Cancelled.
+GrainFields make_grain_fields(std::span<const GrainStore::Sphere> spheres, std::span<const uint8_t> type_codes,
+                              uint32_t type_count, const GrainFieldOptions& options, const Progress& progress);
 
 } // namespace scree

@@ -35,7 +35,10 @@ struct FoundLeaf {
 
 class Dilation {
 public:
-    Dilation(Spheres spheres, double more, const VoxelLattice& lattice) : spheres_(spheres), more_(more / lattice.voxel), lattice_(lattice) {}
+    Dilation(Spheres spheres, double more, const VoxelLattice& lattice)
+        : spheres_(spheres), more_(more / lattice.voxel), lattice_(lattice)
+    {
+    }
 
     bool range(uint32_t sphere, SphereBins::Voxel& first, SphereBins::Voxel& last) const
     {
@@ -75,8 +78,9 @@ private:
                     values.touched.set(leaf);
                     for (int i = 0; i < dim; ++i)
                         for (int j = 0; j < dim; ++j)
-                            std::fill_n(&values.distance[static_cast<size_t>(((x * dim + i) * block + y * dim + j) * block + z * dim)], dim,
-                                        static_cast<float>(beyond));
+                            std::fill_n(&values.distance[static_cast<size_t>(
+                                            ((x * dim + i) * block + y * dim + j) * block + z * dim)],
+                                        dim, static_cast<float>(beyond));
                 }
     }
 
@@ -97,7 +101,8 @@ private:
                 const double across = (x - c.x) * (x - c.x) + (y - c.y) * (y - c.y), left = reach * reach - across;
                 if (left < 0) continue;
                 const double half = std::sqrt(left);
-                const int begin = std::max(first[2], static_cast<int>(std::ceil(c.z - half))), end = std::min(last[2], static_cast<int>(std::floor(c.z + half)));
+                const int begin = std::max(first[2], static_cast<int>(std::ceil(c.z - half))),
+                          end = std::min(last[2], static_cast<int>(std::floor(c.z + half)));
                 float* row = &values.distance[static_cast<size_t>((x * block + y) * block)];
                 const auto squared = static_cast<float>(across);
                 for (int z = begin; z <= end; ++z) {
@@ -118,15 +123,18 @@ std::vector<FoundLeaf> to_leaves(const SphereBins::Bin& bin, const BlockValues& 
     std::vector<FoundLeaf> leaves;
     for (size_t n = 0; n < leaves_in_block; ++n) {
         if (!values.touched[n]) continue;
-        const int index = static_cast<int>(n), x = index / (leaves_along * leaves_along) * dim, y = index / leaves_along % leaves_along * dim, z = index % leaves_along * dim;
+        const int index = static_cast<int>(n), x = index / (leaves_along * leaves_along) * dim,
+                  y = index / leaves_along % leaves_along * dim, z = index % leaves_along * dim;
         const auto first = [&](size_t k) { return static_cast<int>(bin.block[k] * block); };
-        auto leaf = std::make_unique<Leaf>(openvdb::Coord(first(0) + x, first(1) + y, first(2) + z), static_cast<float>(beyond), false);
+        auto leaf = std::make_unique<Leaf>(openvdb::Coord(first(0) + x, first(1) + y, first(2) + z),
+                                           static_cast<float>(beyond), false);
         bool inside = true, any = false;
         for (int i = 0; i < dim; ++i)
             for (int j = 0; j < dim; ++j)
                 for (int k = 0; k < dim; ++k) {
                     const float value = values.distance[static_cast<size_t>(((x + i) * block + y + j) * block + z + k)];
-                    if (value < static_cast<float>(beyond)) leaf->setValueOn(static_cast<openvdb::Index>((i * dim + j) * dim + k), value), any = true;
+                    if (value < static_cast<float>(beyond))
+                        leaf->setValueOn(static_cast<openvdb::Index>((i * dim + j) * dim + k), value), any = true;
                     inside = inside && value < 0;
                 }
         if (any) leaves.push_back({std::move(leaf), inside});
@@ -134,7 +142,8 @@ std::vector<FoundLeaf> to_leaves(const SphereBins::Bin& bin, const BlockValues& 
     return leaves;
 }
 
-/// Puts the leaves into one tree; those whose neighbours all are inside as well become single values: no surface is near them.
+/// Puts the leaves into one tree; those whose neighbours all are inside as well become single values: no surface is
+/// near them.
 openvdb::FloatGrid::Ptr gather(std::vector<std::vector<FoundLeaf>>& leaves)
 {
     const auto cell = [](const FoundLeaf& found) { return found.leaf->origin() >> Leaf::LOG2DIM; };
@@ -148,9 +157,12 @@ openvdb::FloatGrid::Ptr gather(std::vector<std::vector<FoundLeaf>>& leaves)
     for (auto& of_block : leaves) {
         for (FoundLeaf& found : of_block) {
             bool deep = found.inside;
-            for (int k = 0; deep && k < 27; ++k) deep = is_inside.isValueOn(cell(found).offsetBy(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1));
-            if (deep) grid->tree().addTile(1, found.leaf->origin(), -static_cast<float>(beyond), false);
-            else grid->tree().addLeaf(found.leaf.release());
+            for (int k = 0; deep && k < 27; ++k)
+                deep = is_inside.isValueOn(cell(found).offsetBy(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1));
+            if (deep)
+                grid->tree().addTile(1, found.leaf->origin(), -static_cast<float>(beyond), false);
+            else
+                grid->tree().addLeaf(found.leaf.release());
         }
         of_block.clear();
     }
@@ -163,18 +175,21 @@ GrainHull dilated_spheres(Spheres spheres, double more, const VoxelLattice& latt
 {
     openvdb::initialize();
     const Dilation dilation(spheres, more, lattice);
-    const SphereBins bins(static_cast<uint32_t>(spheres.size()), block,
-                          [&](uint32_t i, SphereBins::Voxel& first, SphereBins::Voxel& last) { return dilation.range(i, first, last); });
+    const SphereBins bins(
+        static_cast<uint32_t>(spheres.size()), block,
+        [&](uint32_t i, SphereBins::Voxel& first, SphereBins::Voxel& last) { return dilation.range(i, first, last); });
     if (progress.cancelled()) throw Cancelled();
     std::vector<std::vector<FoundLeaf>> leaves(bins.bins().size());
-    tbb::enumerable_thread_specific<std::unique_ptr<BlockValues>> workspaces([] { return std::make_unique<BlockValues>(); });
+    tbb::enumerable_thread_specific<std::unique_ptr<BlockValues>> workspaces(
+        [] { return std::make_unique<BlockValues>(); });
     std::atomic<uint64_t> done{0};
     tbb::parallel_for(size_t{0}, leaves.size(), [&](size_t i) {
         if (progress.cancelled()) return;
         BlockValues& values = *workspaces.local();
         dilation.fill(bins.bins()[i], values);
         leaves[i] = to_leaves(bins.bins()[i], values);
-        if (const uint64_t n = ++done; n % 64 == 0) progress.update("hull of the heap", static_cast<double>(n) / static_cast<double>(leaves.size()));
+        if (const uint64_t n = ++done; n % 64 == 0)
+            progress.update("hull of the heap", static_cast<double>(n) / static_cast<double>(leaves.size()));
     });
     if (progress.cancelled()) throw Cancelled();
     GrainHull hull{gather(leaves), lattice, {}};

@@ -4,7 +4,8 @@ namespace scree {
 
 namespace {
 
-/// Integrals over q of what a stratum is chosen with, (1 - alpha0(q)) times the tent of Gsdf::stratum, and of the entry under it.
+/// Integrals over q of what a stratum is chosen with, (1 - alpha0(q)) times the tent of Gsdf::stratum, and of the entry
+/// under it.
 struct StratumImpact {
     double mass = 0, b = 0, cosine = 0; ///< of 1, sin beta_o, cos beta_o
 };
@@ -125,11 +126,13 @@ GrainAlbedoByRadius::GrainAlbedoByRadius(const Gsdf& gsdf, const Material& mater
         if (!(impacts[s].mass > 0)) continue;
         for_each_record(gsdf, s, [&](uint32_t number, const GsdfRecord& record, double mass) {
             const V3d kept(gsdf.weight(number, clear, 1));
-            const double all = mass * impacts[s].mass, cosine = record.direction.unpack().z, place = record.length / width_;
+            const double all = mass * impacts[s].mass, cosine = record.direction.unpack().z,
+                         place = record.length / width_;
             const auto below = std::min(static_cast<size_t>(place), bins - 1);
             lost_ += all * (V3d(1) - kept);
             for (const size_t bin : {below, below + 1}) {
-                const double share = all * (bin == below ? 1 - (place - static_cast<double>(below)) : place - static_cast<double>(below));
+                const double share = all * (bin == below ? 1 - (place - static_cast<double>(below))
+                                                         : place - static_cast<double>(below));
                 bins_[bin].weight += share * kept;
                 bins_[bin].weighted_cosine += share * cosine * kept;
             }
@@ -141,7 +144,8 @@ GrainAlbedo GrainAlbedoByRadius::at(double radius) const
 {
     GrainAlbedo albedo{V3d(1) - lost_, V3d(0)};
     for (size_t i = 0; i < bins_.size(); ++i) {
-        const V3d depth = static_cast<double>(i) * width_ * radius * absorption_, absorbed(-std::expm1(-depth.x), -std::expm1(-depth.y), -std::expm1(-depth.z));
+        const V3d depth = static_cast<double>(i) * width_ * radius * absorption_,
+                  absorbed(-std::expm1(-depth.x), -std::expm1(-depth.y), -std::expm1(-depth.z));
         albedo.weight -= bins_[i].weight * absorbed;
         albedo.weighted_cosine += bins_[i].weighted_cosine * (V3d(1) - absorbed);
     }

@@ -19,13 +19,15 @@ namespace {
 
 using Leaf = openvdb::FloatTree::LeafNodeType;
 constexpr int dim = Leaf::DIM;
-constexpr float beyond = 2; ///< voxels on either side of the level up to which the field is known: more than a cell's diagonal
+constexpr float beyond =
+    2; ///< voxels on either side of the level up to which the field is known: more than a cell's diagonal
 
-/// How deep places lie below a hull. What is inside its own field says, and how far from the surface a tree of its triangles: of the many voxels
-/// of a heap only those near the level are asked about.
+/// How deep places lie below a hull. What is inside its own field says, and how far from the surface a tree of its
+/// triangles: of the many voxels of a heap only those near the level are asked about.
 class Depth {
 public:
-    Depth(const GrainHull& hull, double level, const VoxelLattice& lattice, const Progress& progress) : hull_(hull), level_(level), lattice_(lattice)
+    Depth(const GrainHull& hull, double level, const VoxelLattice& lattice, const Progress& progress)
+        : hull_(hull), level_(level), lattice_(lattice)
     {
         Imath::Box3d box;
         for (const V3f& p : hull.surface.positions) box.extendBy(V3d(p));
@@ -40,7 +42,8 @@ public:
     {
         std::set<openvdb::Coord> found;
         const auto add = [&](const openvdb::CoordBBox& box) {
-            const V3d low = (hull_.lattice.place(to_v3d(box.min())) - lattice_.origin) / lattice_.voxel, high = (hull_.lattice.place(to_v3d(box.max())) - lattice_.origin) / lattice_.voxel;
+            const V3d low = (hull_.lattice.place(to_v3d(box.min())) - lattice_.origin) / lattice_.voxel,
+                      high = (hull_.lattice.place(to_v3d(box.max())) - lattice_.origin) / lattice_.voxel;
             const auto leaf = [](double x) { return static_cast<int>(std::floor(x / dim)); };
             for (int x = leaf(low.x); x <= leaf(high.x + 1); ++x)
                 for (int y = leaf(low.y); y <= leaf(high.y + 1); ++y)
@@ -57,14 +60,16 @@ public:
 
     enum class Kind { outside, inside, mixed };
 
-    /// Fills a leaf with what is missing to the level, in voxels; negative where it is deep enough. Leaves it alone unless mixed.
+    /// Fills a leaf with what is missing to the level, in voxels; negative where it is deep enough. Leaves it alone
+    /// unless mixed.
     Kind fill(Leaf& leaf) const
     {
         openvdb::tree::ValueAccessor<const openvdb::FloatTree> field(hull_.field->tree());
         const double to_corner = 0.5 * (dim - 1) * std::sqrt(3.0);
         const V3d first = to_v3d(leaf.origin()), middle = first + V3d(0.5 * (dim - 1));
         const double around = distance(middle);
-        if (around < level_ - beyond - to_corner || (around > to_corner && !is_inside(field, middle))) return Kind::outside;
+        if (around < level_ - beyond - to_corner || (around > to_corner && !is_inside(field, middle)))
+            return Kind::outside;
         if (around > level_ + beyond + to_corner) return Kind::inside;
         leaf.fill(beyond, false);
         for (int i = 0; i < dim; ++i)
@@ -77,17 +82,25 @@ public:
                     int same = 1 + static_cast<int>(std::max(inside ? 0.0 : deep, std::abs(level_ - deep) - beyond));
                     for (; same > 0 && k < dim; --same, ++k) {
                         const auto offset = static_cast<openvdb::Index>((i * dim + j) * dim + k);
-                        if (std::abs(missing) < beyond) leaf.setValueOn(offset, static_cast<float>(missing));
-                        else leaf.setValueOff(offset, missing < 0 ? -beyond : beyond);
+                        if (std::abs(missing) < beyond)
+                            leaf.setValueOn(offset, static_cast<float>(missing));
+                        else
+                            leaf.setValueOff(offset, missing < 0 ? -beyond : beyond);
                     }
                 }
         return Kind::mixed;
     }
 
 private:
-    static V3d to_v3d(const openvdb::Coord& c) { return {static_cast<double>(c.x()), static_cast<double>(c.y()), static_cast<double>(c.z())}; }
+    static V3d to_v3d(const openvdb::Coord& c)
+    {
+        return {static_cast<double>(c.x()), static_cast<double>(c.y()), static_cast<double>(c.z())};
+    }
     /// In voxels.
-    double distance(const V3d& index) const { return tree_.distance(lattice_.place(index) * scale_) / (scale_ * lattice_.voxel); }
+    double distance(const V3d& index) const
+    {
+        return tree_.distance(lattice_.place(index) * scale_) / (scale_ * lattice_.voxel);
+    }
     bool is_inside(const openvdb::tree::ValueAccessor<const openvdb::FloatTree>& field, const V3d& index) const
     {
         const V3d at = (lattice_.place(index) - hull_.lattice.origin) / hull_.lattice.voxel;
@@ -103,7 +116,8 @@ private:
 
 } // namespace
 
-std::optional<RegionSurface> inset_of_hull(const GrainHull& hull, double depth, const VoxelLattice& lattice, const Progress& progress)
+std::optional<RegionSurface> inset_of_hull(const GrainHull& hull, double depth, const VoxelLattice& lattice,
+                                           const Progress& progress)
 {
     if (hull.surface.triangles.empty()) return std::nullopt;
     const Depth field(hull, depth / lattice.voxel, lattice, progress);
@@ -116,14 +130,17 @@ std::optional<RegionSurface> inset_of_hull(const GrainHull& hull, double depth, 
         leaves[i] = std::make_unique<Leaf>(candidates[i] << Leaf::LOG2DIM, beyond, false);
         kinds[i] = field.fill(*leaves[i]);
         if (kinds[i] != Depth::Kind::mixed) leaves[i].reset();
-        if (const size_t n = ++done; n % 64 == 0) progress.update("core of the heap", static_cast<double>(n) / static_cast<double>(leaves.size()));
+        if (const size_t n = ++done; n % 64 == 0)
+            progress.update("core of the heap", static_cast<double>(n) / static_cast<double>(leaves.size()));
     });
     if (progress.cancelled()) throw Cancelled();
     const auto grid = openvdb::FloatGrid::create(beyond);
     grid->setGridClass(openvdb::GRID_LEVEL_SET); // which side of its surface is out depends on this
     for (size_t i = 0; i < leaves.size(); ++i) {
-        if (kinds[i] == Depth::Kind::inside) grid->tree().addTile(1, candidates[i] << Leaf::LOG2DIM, -beyond, false);
-        else if (kinds[i] == Depth::Kind::mixed) grid->tree().addLeaf(leaves[i].release());
+        if (kinds[i] == Depth::Kind::inside)
+            grid->tree().addTile(1, candidates[i] << Leaf::LOG2DIM, -beyond, false);
+        else if (kinds[i] == Depth::Kind::mixed)
+            grid->tree().addLeaf(leaves[i].release());
     }
     RegionSurface inset = level_surface(*grid, 0, lattice);
     progress.update("core of the heap", 1);

@@ -18,7 +18,9 @@ constexpr double margin = 3; ///< voxels of the band beyond what is asked for, s
 /// A surface as OpenVDB wants to see it, without a copy.
 class SurfaceOnLattice {
 public:
-    SurfaceOnLattice(const RegionSurface& surface, const VoxelLattice& lattice) : surface_(surface), lattice_(lattice) {}
+    SurfaceOnLattice(const RegionSurface& surface, const VoxelLattice& lattice) : surface_(surface), lattice_(lattice)
+    {
+    }
 
     size_t polygonCount() const { return surface_.triangles.size(); }
     size_t pointCount() const { return surface_.positions.size(); }
@@ -73,11 +75,14 @@ double affordable_voxel(const RegionSurface& surface, double depth, double wante
     const double area = surface_area(surface), volume = std::abs(surface_volume(surface));
     double voxel = wanted;
     // Outside of the surface and beyond the level a few layers of voxels are kept as well.
-    while (area * (2 * margin) / (voxel * voxel) + std::min(area * depth, volume) / (voxel * voxel * voxel) > most_voxels) voxel *= 1.125;
+    while (area * (2 * margin) / (voxel * voxel) + std::min(area * depth, volume) / (voxel * voxel * voxel) >
+           most_voxels)
+        voxel *= 1.125;
     return voxel;
 }
 
-std::optional<RegionSurface> inset_on_lattice(const RegionSurface& surface, double depth, const VoxelLattice& lattice, const Progress& progress)
+std::optional<RegionSurface> inset_on_lattice(const RegionSurface& surface, double depth, const VoxelLattice& lattice,
+                                              const Progress& progress)
 {
     const double level = depth / lattice.voxel;
     Interrupter interrupter(progress);
@@ -85,8 +90,9 @@ std::optional<RegionSurface> inset_on_lattice(const RegionSurface& surface, doub
     // What it takes for self-intersections may be the walls of cavities.
     const int flags = openvdb::tools::DISABLE_RENORMALIZATION | openvdb::tools::DISABLE_NARROW_BAND_TRIMMING |
                       openvdb::tools::DISABLE_INTERSECTING_VOXEL_REMOVAL;
-    const auto grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(interrupter, SurfaceOnLattice(surface, lattice), openvdb::math::Transform(),
-                                                                      static_cast<float>(margin), static_cast<float>(level + margin), flags);
+    const auto grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
+        interrupter, SurfaceOnLattice(surface, lattice), openvdb::math::Transform(), static_cast<float>(margin),
+        static_cast<float>(level + margin), flags);
     if (progress.cancelled()) throw Cancelled();
     RegionSurface inset = level_surface(*grid, -level, lattice);
     if (progress.cancelled()) throw Cancelled();

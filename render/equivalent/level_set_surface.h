@@ -15,11 +15,14 @@ struct VoxelLattice {
     V3d place(const V3d& index) const { return origin + index * voxel; }
 };
 
-/// The surface where a field passes `level`, around what is below it; the grid is of the class GRID_LEVEL_SET. For sources that use OpenVDB.
+/// The surface where a field passes `level`, around what is below it; the grid is of the class GRID_LEVEL_SET. For
+/// sources that use OpenVDB.
 RegionSurface level_surface(const openvdb::FloatGrid& grid, double level, const VoxelLattice& lattice);
 
-/// All points deeper than `depth` below a closed surface (may have shells that face inwards), found in voxels of one size. Throws Cancelled.
-std::optional<RegionSurface> inset_on_lattice(const RegionSurface& surface, double depth, const VoxelLattice& lattice, const Progress& progress);
+/// All points deeper than `depth` below a closed surface (may have shells that face inwards), found in voxels of one
+/// size. Throws Cancelled.
+std::optional<RegionSurface> inset_on_lattice(const RegionSurface& surface, double depth, const VoxelLattice& lattice,
+                                              const Progress& progress);
 
 /// The least voxel, at least `wanted`, with which the band between a surface and its inset has no more voxels than fit.
 double affordable_voxel(const RegionSurface& surface, double depth, double wanted);

@@ -8,26 +8,30 @@ namespace scree {
 
 double MixtureMoments::diffusivity() const
 {
-    // A step is Y_i = s_i w_i + delta_i. <Y_i^2> / 2, and with all later steps: the mean of Y_i . w_(i+1) is l g + b, that of Y_j
-    // along w_(i+1) is (l + a) g^(j-i-1).
+    // A step is Y_i = s_i w_i + delta_i. <Y_i^2> / 2, and with all later steps: the mean of Y_i . w_(i+1) is l g + b,
+    // that of Y_j along w_(i+1) is (l + a) g^(j-i-1).
     return 0.5 * (flight2 + 2 * flight * along_in + delta2) + (flight * g + along_out) * transport_length();
 }
 
 MixtureMoments mixture_moments(std::span<const GrainShare> shares, double fraction)
 {
     const std::string place = "continuous equivalent";
-    if (!(fraction > 0 && fraction < 1)) throw InputError(place, fmt::format("a pack rate of {:g}", fraction), "more than 0 and less than 1");
+    if (!(fraction > 0 && fraction < 1))
+        throw InputError(place, fmt::format("a pack rate of {:g}", fraction), "more than 0 and less than 1");
     MixtureMoments mixture;
-    double r2 = 0, r3 = 0;                             // sums over grains
+    double r2 = 0, r3 = 0; // sums over grains
     double scattered = 0, passed = 0, chord = 0, chord2 = 0; // cross-sections, and weighted by them
     V3d lost(0);
     for (const GrainShare& share : shares) {
         if (!(share.number >= 0 && share.radius > 0 && std::isfinite(share.number * share.radius)))
-            throw InputError(place, fmt::format("{:g} grains of radius {:g}", share.number, share.radius), "a number of at least 0 and a positive radius");
+            throw InputError(place, fmt::format("{:g} grains of radius {:g}", share.number, share.radius),
+                             "a number of at least 0 and a positive radius");
         if (share.number == 0) continue;
         const GrainMoments moments = share.moments ? *share.moments : grain_moments(*share.gsdf);
-        const GrainAlbedo albedo = share.albedo ? *share.albedo : grain_albedo(*share.gsdf, share.material, share.radius);
-        const double r = share.radius, area = share.number * r * r, met = area * (1 - moments.alpha0), missed = area * moments.alpha0;
+        const GrainAlbedo albedo =
+            share.albedo ? *share.albedo : grain_albedo(*share.gsdf, share.material, share.radius);
+        const double r = share.radius, area = share.number * r * r, met = area * (1 - moments.alpha0),
+                     missed = area * moments.alpha0;
         r2 += area;
         r3 += area * r;
         scattered += met;
@@ -52,10 +56,12 @@ MixtureMoments mixture_moments(std::span<const GrainShare> shares, double fracti
         chord2 /= passed;
     }
     const double l_v = 4 * (1 - fraction) * r3 / (3 * fraction * r2);
-    // The number K of passes before a scattering is geometric: its mean is `passes`, its variance passes (1 + passes). The flight is
-    // s_0 + sum over K of (c_k + s_k); its variance that of s_0, K times that of c + s, and that of K times (c + s)^2.
+    // The number K of passes before a scattering is geometric: its mean is `passes`, its variance passes (1 + passes).
+    // The flight is s_0 + sum over K of (c_k + s_k); its variance that of s_0, K times that of c + s, and that of K
+    // times (c + s)^2.
     const double passes = passed / scattered, step = chord + l_v;
-    const double variance = l_v * l_v + passes * (chord2 - chord * chord + l_v * l_v) + passes * (1 + passes) * step * step;
+    const double variance =
+        l_v * l_v + passes * (chord2 - chord * chord + l_v * l_v) + passes * (1 + passes) * step * step;
     mixture.void_flight = l_v;
     mixture.flight = l_v + passes * step;
     mixture.flight2 = mixture.flight * mixture.flight + variance;

@@ -11,22 +11,23 @@ namespace scree {
 struct GrainShare {
     const Gsdf* gsdf = nullptr;
     const GrainMoments* moments = nullptr; ///< of the GSDF, or null: then they are taken
-    Material material;                     ///< absorption per the caller's unit of length
-    double radius = 1;                     ///< of the bounding sphere, in the caller's unit of length
-    double number = 1;                     ///< weight by number
+    Material material; ///< absorption per the caller's unit of length
+    double radius = 1; ///< of the bounding sphere, in the caller's unit of length
+    double number = 1; ///< weight by number
     std::optional<GrainAlbedo> albedo = {}; ///< at this radius, or nothing: then it is taken
 };
 
-/// What light meets from scattering to scattering in a packing, its flights independent of each other; in the caller's unit of length.
+/// What light meets from scattering to scattering in a packing, its flights independent of each other; in the caller's
+/// unit of length.
 ///
-/// Scatterings are weighted by cross-section, n r^2 (1 - alpha0). Flights in the voids are taken to be exponential; where a grain
-/// is passed straight through, its chord and a further flight are added.
+/// Scatterings are weighted by cross-section, n r^2 (1 - alpha0). Flights in the voids are taken to be exponential;
+/// where a grain is passed straight through, its chord and a further flight are added.
 struct MixtureMoments {
-    double void_flight = 0;              ///< l_v = 4 (1 - f) <r^3> / (3 f <r^2>), exact for any packing
-    double flight = 0, flight2 = 0;      ///< mean and mean square of the way from scattering to scattering
-    double g = 0;                        ///< mean cosine
+    double void_flight = 0; ///< l_v = 4 (1 - f) <r^3> / (3 f <r^2>), exact for any packing
+    double flight = 0, flight2 = 0; ///< mean and mean square of the way from scattering to scattering
+    double g = 0; ///< mean cosine
     double along_in = 0, along_out = 0, delta2 = 0; ///< of the way within grains, as in GrainMoments
-    V3d albedo{1};                       ///< mean weight of a scattering
+    V3d albedo{1}; ///< mean weight of a scattering
     V3d weighted_cosine{0};
     CosineTable phase;
 
@@ -36,7 +37,8 @@ struct MixtureMoments {
     double diffusivity() const;
 };
 
-/// fraction: of the volume that the bounding spheres fill, in (0, 1). Throws InputError for other numbers, and where nothing scatters.
+/// fraction: of the volume that the bounding spheres fill, in (0, 1). Throws InputError for other numbers, and where
+/// nothing scatters.
 MixtureMoments mixture_moments(std::span<const GrainShare> shares, double fraction);
 
 } // namespace scree

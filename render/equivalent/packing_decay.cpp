@@ -20,13 +20,16 @@ std::array<double, 5> exponential_moments(double x)
     if (x < 0.05) { // the recursion below would cancel
         for (size_t n = 0; n < 5; ++n) {
             const auto m = static_cast<double>(n);
-            moments[n] = n % 2 == 0 ? 1 / (m + 1) + x * x * (0.5 / (m + 3) + x * x / (24 * (m + 5))) : x * (1 / (m + 2) + x * x * (1.0 / 6 / (m + 4) + x * x / (120 * (m + 6))));
+            moments[n] = n % 2 == 0 ? 1 / (m + 1) + x * x * (0.5 / (m + 3) + x * x / (24 * (m + 5)))
+                                    : x * (1 / (m + 2) + x * x * (1.0 / 6 / (m + 4) + x * x / (120 * (m + 6))));
         }
         return moments;
     }
-    const double over_x = 1 / x, exponential = std::exp(x), up = 0.5 * over_x * exponential, down = 0.5 * over_x / exponential;
+    const double over_x = 1 / x, exponential = std::exp(x), up = 0.5 * over_x * exponential,
+                 down = 0.5 * over_x / exponential;
     moments[0] = up - down;
-    for (size_t n = 1; n < 5; ++n) moments[n] = (n % 2 == 0 ? up - down : up + down) - static_cast<double>(n) * over_x * moments[n - 1];
+    for (size_t n = 1; n < 5; ++n)
+        moments[n] = (n % 2 == 0 ? up - down : up + down) - static_cast<double>(n) * over_x * moments[n - 1];
     return moments;
 }
 
@@ -37,12 +40,13 @@ void add_way(const DecayWay& way, double kappa, M33d& sum)
     const double a = way.start, b = way.end, d = way.turn - a * b, across_a = 1 - a * a, across_b = 1 - b * b;
     const auto t = exponential_moments(kappa * way.length);
     const double t2s2 = t[2] - t[4], s2 = t[0] - t[2], s4 = t[0] - 2 * t[2] + t[4], ts2 = t[1] - t[3];
-    const double a1 = a * t[1], b1 = b * t[1];                                     // of mu_0, mu_m
+    const double a1 = a * t[1], b1 = b * t[1]; // of mu_0, mu_m
     const double a2 = a * a * t[2] + 0.5 * across_a * s2, b2 = b * b * t[2] + 0.5 * across_b * s2; // mu_0^2, mu_m^2
-    const double ab = a * b * t[2] + 0.5 * d * s2;                                 // mu_0 mu_m
-    const double ab2 = a * b * b * t[3] + 0.5 * a * across_b * ts2 + b * d * ts2;  // mu_0 mu_m^2
-    const double a2b = b * a * a * t[3] + 0.5 * b * across_a * ts2 + a * d * ts2;  // mu_0^2 mu_m
-    const double a2b2 = a * a * b * b * t[4] + 0.5 * (a * a * across_b + b * b * across_a + 4 * a * b * d) * t2s2 + 0.125 * (across_a * across_b + 2 * d * d) * s4;
+    const double ab = a * b * t[2] + 0.5 * d * s2; // mu_0 mu_m
+    const double ab2 = a * b * b * t[3] + 0.5 * a * across_b * ts2 + b * d * ts2; // mu_0 mu_m^2
+    const double a2b = b * a * a * t[3] + 0.5 * b * across_a * ts2 + a * d * ts2; // mu_0^2 mu_m
+    const double a2b2 = a * a * b * b * t[4] + 0.5 * (a * a * across_b + b * b * across_a + 4 * a * b * d) * t2s2 +
+                        0.125 * (across_a * across_b + 2 * d * d) * s4;
     const double kept = way.kept;
     sum[0][0] += kept * t[0];
     sum[0][1] += kept * b1;
@@ -82,7 +86,8 @@ Mode largest_mode(const M33d& a)
 class DecayFit {
 public:
     /// thinned: one in so many ways is used.
-    DecayFit(std::span<const std::vector<DecayWay>> batches, size_t thinned) : batches_(batches), sums_(batches.size()), thinned_(thinned)
+    DecayFit(std::span<const std::vector<DecayWay>> batches, size_t thinned)
+        : batches_(batches), sums_(batches.size()), thinned_(thinned)
     {
         double squares = 0, lost = 0;
         for (const auto& batch : batches_) {
@@ -127,7 +132,10 @@ public:
     }
 
 private:
-    double used(const std::vector<DecayWay>& batch) const { return static_cast<double>((batch.size() + thinned_ - 1) / thinned_); }
+    double used(const std::vector<DecayWay>& batch) const
+    {
+        return static_cast<double>((batch.size() + thinned_ - 1) / thinned_);
+    }
 
     std::span<const std::vector<DecayWay>> batches_;
     std::vector<M33d> sums_;
@@ -139,7 +147,8 @@ private:
 /// Where the excess is 0; 0 if nowhere.
 double find_root(DecayFit& fit)
 {
-    // The excess is negative at 0 and grows. A bracket, then regula falsi (Illinois) in kappa^2, in which it is nearly linear.
+    // The excess is negative at 0 and grows. A bracket, then regula falsi (Illinois) in kappa^2, in which it is nearly
+    // linear.
     const double at_zero = fit.excess(0);
     if (!(at_zero < 0) || !(fit.longest() > 0)) return 0;
     double low = 0, high = fit.diffusive2(), at_low = at_zero, at_high = fit.excess(std::sqrt(high));

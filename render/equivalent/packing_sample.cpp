@@ -24,7 +24,8 @@ PackingSample sample_fill(const GrainFill& fill, uint64_t most)
     // Rows and cells by hash: cells outside have no grains, but a mixture has an answer for them as well.
     for (const bool everywhere : {false, true}) {
         for (uint64_t i = 0; i < 8 * most && sample.grains.size() < most; ++i) {
-            const uint64_t cell = hash_index(i, 0) % spheres.cell_count(), row = hash_index(i, 1) % spheres.tile().rows();
+            const uint64_t cell = hash_index(i, 0) % spheres.cell_count(),
+                           row = hash_index(i, 1) % spheres.tile().rows();
             if (!everywhere && spheres.kind(cell) == ProceduralFill::CellKind::outside) continue;
             const ProceduralFill::Sphere sphere = spheres.sphere(spheres.id(cell, row));
             if (!everywhere && !spheres.domain().contains(sphere.centre)) continue;
@@ -45,7 +46,8 @@ PackingSample sample_list(const GrainStore& grains, size_t types, uint64_t most,
         sample.grains.push_back({i, grains.radius(i), grains.type_codes[i]});
     }
     const GrainFieldOptions options{.margin = grains.margin};
-    const GrainFields fields = make_grain_fields({grains.spheres.data(), grains.size()}, grains.type_codes, static_cast<uint32_t>(types), options, progress);
+    const GrainFields fields = make_grain_fields({grains.spheres.data(), grains.size()}, grains.type_codes,
+                                                 static_cast<uint32_t>(types), options, progress);
     std::vector<double> rates;
     for (const PackingSample::Grain& grain : sample.grains) rates.push_back(fields.pack_rate(grains.centre(grain.row)));
     if (rates.empty()) return sample;
@@ -83,21 +85,24 @@ MomentTable::MomentTable(const std::vector<GrainType>& types, const PackingSampl
             least[i] = std::ranges::min(least);
             most[i] = std::ranges::max(most);
         }
-        constexpr double margin = 2, finest = 0.1; // shares of two radii reach beyond the sample's; steps of the logarithm
+        constexpr double margin = 2,
+                         finest = 0.1; // shares of two radii reach beyond the sample's; steps of the logarithm
         type.least = std::log(least[i] / margin);
         const double range = std::log(most[i] * margin) - type.least;
         const auto steps = is_black(type.material.absorption) ? 0 : static_cast<size_t>(std::ceil(range / finest));
         type.step = steps > 0 ? range / static_cast<double>(steps) : 0;
         type.albedo.resize(steps + 1);
         const GrainAlbedoByRadius by_radius(*type.gsdf, type.material);
-        for (size_t k = 0; k <= steps; ++k) type.albedo[k] = by_radius.at(std::exp(type.least + static_cast<double>(k) * type.step));
+        for (size_t k = 0; k <= steps; ++k)
+            type.albedo[k] = by_radius.at(std::exp(type.least + static_cast<double>(k) * type.step));
     }
 }
 
 GrainAlbedo MomentTable::albedo_at(const Type& type, double radius)
 {
     if (type.albedo.size() == 1) return type.albedo[0];
-    const double place = std::clamp((std::log(radius) - type.least) / type.step, 0.0, static_cast<double>(type.albedo.size() - 1));
+    const double place =
+        std::clamp((std::log(radius) - type.least) / type.step, 0.0, static_cast<double>(type.albedo.size() - 1));
     const auto below = std::min(static_cast<size_t>(place), type.albedo.size() - 2);
     const double part = place - static_cast<double>(below);
     const GrainAlbedo &a = type.albedo[below], &b = type.albedo[below + 1];
@@ -114,11 +119,14 @@ void MomentTable::add_shares(uint8_t type, double m2, double m3, double m4, std:
         shares.push_back({kind.gsdf, &kind.moments, kind.material, mean, m2 / (mean * mean), albedo_at(kind, mean)});
         return;
     }
-    // By cross-section u parts of 1 at mean - deviation sqrt((1 - u) / u), the rest above: any u keeps mean and deviation; the radii stay above 0.
+    // By cross-section u parts of 1 at mean - deviation sqrt((1 - u) / u), the rest above: any u keeps mean and
+    // deviation; the radii stay above 0.
     const double u = std::max(0.5, 1 / (1 + 0.25 * mean * mean / (deviation * deviation)));
     const double small = mean - deviation * std::sqrt((1 - u) / u), large = mean + deviation * std::sqrt(u / (1 - u));
-    shares.push_back({kind.gsdf, &kind.moments, kind.material, small, u * m2 / (small * small), albedo_at(kind, small)});
-    shares.push_back({kind.gsdf, &kind.moments, kind.material, large, (1 - u) * m2 / (large * large), albedo_at(kind, large)});
+    shares.push_back(
+        {kind.gsdf, &kind.moments, kind.material, small, u * m2 / (small * small), albedo_at(kind, small)});
+    shares.push_back(
+        {kind.gsdf, &kind.moments, kind.material, large, (1 - u) * m2 / (large * large), albedo_at(kind, large)});
 }
 
 std::vector<GrainShare> shares_of(const PackingSample& sample, const MomentTable& table)

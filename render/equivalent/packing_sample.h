@@ -8,7 +8,8 @@
 
 namespace scree {
 
-/// What grains a packing is made of, by number: all that are listed, or a sample of those of a fill. Lengths in render coordinates.
+/// What grains a packing is made of, by number: all that are listed, or a sample of those of a fill. Lengths in render
+/// coordinates.
 struct PackingSample {
     struct Grain {
         uint64_t row; ///< of the fill's tile, or place in the list
@@ -16,7 +17,8 @@ struct PackingSample {
         uint8_t type;
     };
     std::vector<Grain> grains;
-    double pack_rate = 0; ///< of the bounding spheres, where grains are; of a list that of the three quarters that lie loosest
+    double pack_rate =
+        0; ///< of the bounding spheres, where grains are; of a list that of the three quarters that lie loosest
 
     double mean_radius() const;
     /// By volume: <r^4> / <r^3>.
@@ -38,8 +40,8 @@ private:
         const Gsdf* gsdf = nullptr;
         Material material;
         GrainMoments moments;
-        double least = 0, step = 0;       ///< logarithms of radii
-        std::vector<GrainAlbedo> albedo;  ///< at exp(least + i step); one where it is the same for all
+        double least = 0, step = 0; ///< logarithms of radii
+        std::vector<GrainAlbedo> albedo; ///< at exp(least + i step); one where it is the same for all
     };
     static GrainAlbedo albedo_at(const Type& type, double radius);
 

@@ -1,10 +1,10 @@
 #include "render/equivalent/packing_walk.h"
 
 #include "base/error.h"
-#include "render/gsdf/encounter.h"
 #include "base/sampler.h"
-#include "render/embree/embree_device.h"
 #include "base/warp.h"
+#include "render/embree/embree_device.h"
+#include "render/gsdf/encounter.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -32,7 +32,10 @@ struct Line {
 
 class Walker {
 public:
-    Walker(const World& world, const Tracer& tracer, const PackingWalkOptions& options) : world_(world), tracer_(tracer), options_(options) {}
+    Walker(const World& world, const Tracer& tracer, const PackingWalkOptions& options)
+        : world_(world), tracer_(tracer), options_(options)
+    {
+    }
 
     /// Lines of this length, of which walks start; 0: as far as the first entry.
     Line line(Sampler& sampler, double length) const
@@ -66,7 +69,8 @@ public:
         trail.direction.push_back(w);
         while (trail.scatterings() < length) {
             const Hit hit = fly(o, w, from, sampler, tally);
-            if (hit.place.kind != HitKind::grain || (o - options_.centre).length2() > options_.safe_radius * options_.safe_radius) {
+            if (hit.place.kind != HitKind::grain ||
+                (o - options_.centre).length2() > options_.safe_radius * options_.safe_radius) {
                 ++tally.left;
                 break;
             }
@@ -128,8 +132,8 @@ struct Walked {
     std::vector<Tally> tallies;
 };
 
-Walked run(const Walker& walker, uint64_t seed, uint64_t scatterings, double line_length, uint32_t length, uint32_t memory,
-           const Progress& progress)
+Walked run(const Walker& walker, uint64_t seed, uint64_t scatterings, double line_length, uint32_t length,
+           uint32_t memory, const Progress& progress)
 {
     Walked walked{std::vector<WalkBatch>(batch_count, WalkBatch(memory)), std::vector<Tally>(batch_count)};
     const uint64_t enough = scatterings / batch_count + 1;
@@ -166,19 +170,24 @@ double mean_entry_distance(const Walker& walker, const PackingWalkOptions& optio
         ++count;
     }
     if (count < 128) {
-        throw InputError("walk in a packing", fmt::format("{} of 256 rays from within {:g} of a place meet a grain", count, options.start_radius),
-                         "a place deep in a packing", "start where grains are all around");
+        throw InputError(
+            "walk in a packing",
+            fmt::format("{} of 256 rays from within {:g} of a place meet a grain", count, options.start_radius),
+            "a place deep in a packing", "start where grains are all around");
     }
     return sum / count;
 }
 
 } // namespace
 
-PackingWalk walk_packing(const World& world, const Tracer& tracer, const PackingWalkOptions& options, const Progress& progress)
+PackingWalk walk_packing(const World& world, const Tracer& tracer, const PackingWalkOptions& options,
+                         const Progress& progress)
 {
     const auto begin = std::chrono::steady_clock::now();
     for (const GrainType& type : world.types) {
-        if (!type.gsdf) throw InputError("walk in a packing", fmt::format("grain type {} has no GSDF", type.name), "one for every type");
+        if (!type.gsdf)
+            throw InputError("walk in a packing", fmt::format("grain type {} has no GSDF", type.name),
+                             "one for every type");
     }
     const Walker walker(world, tracer, options);
     const double line_length = mean_entry_distance(walker, options);
@@ -189,7 +198,8 @@ PackingWalk walk_packing(const World& world, const Tracer& tracer, const Packing
     PackingWalk result;
     result.memory = options.memory > 0 ? options.memory : walk_memory(first.cosine().value);
     result.length = options.length > 0 ? options.length : 8 * result.memory;
-    const Walked walked = run(walker, options.seed, options.scatterings, line_length, result.length, result.memory, progress);
+    const Walked walked =
+        run(walker, options.seed, options.scatterings, line_length, result.length, result.memory, progress);
     const WalkStatistics statistics(walked.batches);
     result.scatterings = statistics.scatterings();
     result.flight = statistics.flight();

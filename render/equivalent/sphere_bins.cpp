@@ -21,14 +21,17 @@ uint64_t key_of(int64_t x, int64_t y, int64_t z)
 
 SphereBins::Voxel block_of(uint64_t key)
 {
-    const auto part = [key](int shift) { return static_cast<int64_t>(key >> shift & ((uint64_t{1} << 21) - 1)) - farthest; };
+    const auto part = [key](int shift) {
+        return static_cast<int64_t>(key >> shift & ((uint64_t{1} << 21) - 1)) - farthest;
+    };
     return {part(42), part(21), part(0)};
 }
 
 int64_t divide_down(int64_t a, int64_t b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 
 /// Calls visit(x, y, z) for every block of a sphere.
-template <class Visit> void for_blocks(uint32_t sphere, int edge, const SphereBins::Range& range, const Visit& visit)
+template <class Visit>
+void for_blocks(uint32_t sphere, int edge, const SphereBins::Range& range, const Visit& visit)
 {
     SphereBins::Voxel first, last;
     if (!range(sphere, first, last)) return;
@@ -36,8 +39,11 @@ template <class Visit> void for_blocks(uint32_t sphere, int edge, const SphereBi
         first[k] = divide_down(first[k], edge);
         last[k] = divide_down(last[k], edge);
         if (first[k] < -farthest || last[k] >= farthest)
-            throw InputError("grains", fmt::format("grain {} (in order of the list) {} voxels from the middle of the scene", sphere, std::abs(first[k]) * edge),
-                             fmt::format("at most {}", farthest * edge), "is it a stray grain, or is the voxel too small?");
+            throw InputError("grains",
+                             fmt::format("grain {} (in order of the list) {} voxels from the middle of the scene",
+                                         sphere, std::abs(first[k]) * edge),
+                             fmt::format("at most {}", farthest * edge),
+                             "is it a stray grain, or is the voxel too small?");
     }
     for (int64_t x = first[0]; x <= last[0]; ++x)
         for (int64_t y = first[1]; y <= last[1]; ++y)
@@ -51,7 +57,8 @@ double volume_weighted_radius(std::span<const GrainStore::Sphere> spheres, const
     struct Sums {
         double cubes = 0, fourths = 0;
     };
-    // Products of radii in their own unit could leave the range of numbers; in a power of two near the largest they cannot.
+    // Products of radii in their own unit could leave the range of numbers; in a power of two near the largest they
+    // cannot.
     float largest = 0;
     for (const auto& s : spheres) largest = std::max(largest, s.r);
     if (!(largest > 0)) return 0;
@@ -76,12 +83,15 @@ double volume_weighted_radius(std::span<const GrainStore::Sphere> spheres, const
 SphereBins::SphereBins(uint32_t count, int edge, const Range& range)
 {
     const uint32_t chunks = count / chunk + (count % chunk > 0);
-    const auto spheres_of = [&](uint32_t part) { return std::pair{part * chunk, part + 1 == chunks ? count : (part + 1) * chunk}; };
+    const auto spheres_of = [&](uint32_t part) {
+        return std::pair{part * chunk, part + 1 == chunks ? count : (part + 1) * chunk};
+    };
     std::vector<uint64_t> starts(size_t{chunks} + 1, 0);
     tbb::parallel_for(uint32_t{0}, chunks, [&](uint32_t part) {
         const auto [begin, end] = spheres_of(part);
         uint64_t entries = 0;
-        for (uint32_t i = begin; i < end; ++i) for_blocks(i, edge, range, [&](int64_t, int64_t, int64_t) { ++entries; });
+        for (uint32_t i = begin; i < end; ++i)
+            for_blocks(i, edge, range, [&](int64_t, int64_t, int64_t) { ++entries; });
         starts[part + 1] = entries;
     });
     for (uint32_t part = 0; part < chunks; ++part) starts[part + 1] += starts[part];
@@ -90,7 +100,9 @@ SphereBins::SphereBins(uint32_t count, int edge, const Range& range)
         const auto [begin, end] = spheres_of(part);
         uint64_t next = starts[part];
         for (uint32_t i = begin; i < end; ++i)
-            for_blocks(i, edge, range, [&](int64_t x, int64_t y, int64_t z) { entries_[next++] = {key_of(x, y, z), i}; });
+            for_blocks(i, edge, range, [&](int64_t x, int64_t y, int64_t z) {
+                entries_[next++] = {key_of(x, y, z), i};
+            });
     });
     tbb::parallel_sort(entries_.begin(), entries_.end());
     for (size_t begin = 0; begin < entries_.size();) {

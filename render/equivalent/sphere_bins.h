@@ -12,10 +12,12 @@ namespace scree {
 
 /// The mean radius of spheres, weighted by volume: what most of the material is made of.
 ///
-/// margin: by which the radii are widened. 0 without spheres. Summed in an order of its own: the same on any number of threads.
+/// margin: by which the radii are widened. 0 without spheres. Summed in an order of its own: the same on any number of
+/// threads.
 double volume_weighted_radius(std::span<const GrainStore::Sphere> spheres, const FloatMargin& margin);
 
-/// Which spheres concern which block of a lattice of voxels: a sorted list, as long as what is filled and not as the space is large.
+/// Which spheres concern which block of a lattice of voxels: a sorted list, as long as what is filled and not as the
+/// space is large.
 ///
 /// A block is `edge` voxels along each side; its first voxel is edge * (x, y, z).
 class SphereBins {

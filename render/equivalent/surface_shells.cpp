@@ -149,7 +149,8 @@ void drop_shells_in_cavities(const RegionSurface& surface, double depth, RegionS
         int& known = keep[shells.of_triangle[t]];
         if (known < 0) {
             const V3d at(inset.positions[inset.triangles[t][0]]);
-            const bool near = std::any_of(cavities.begin(), cavities.end(), [&](const Imath::Box3d& b) { return b.intersects(at); });
+            const bool near =
+                std::any_of(cavities.begin(), cavities.end(), [&](const Imath::Box3d& b) { return b.intersects(at); });
             known = !near || winding_number(surface, at) > 0;
         }
         if (known) inset.triangles[kept++] = inset.triangles[t];

@@ -26,7 +26,8 @@ private:
 };
 
 /// A tile of some of the sample's grains; fewer of them are as good a random packing. The rows are those of `taken`.
-std::shared_ptr<const PackingTile> pack(const PackingSample& sample, std::vector<PackingSample::Grain>& taken, const Progress& progress)
+std::shared_ptr<const PackingTile> pack(const PackingSample& sample, std::vector<PackingSample::Grain>& taken,
+                                        const Progress& progress)
 {
     constexpr size_t most = 1000;
     std::vector<PackingSample::Grain> sorted = sample.grains;
@@ -36,7 +37,8 @@ std::shared_ptr<const PackingTile> pack(const PackingSample& sample, std::vector
         taken.push_back(sorted[(2 * i + 1) * sorted.size() / (2 * most)]);
         radii.push_back(taken.back().radius);
     }
-    constexpr double densest = 0.62, looser = 0.95, loosest = 0.5; // most sizes can be packed to the first, all to the last
+    constexpr double densest = 0.62, looser = 0.95,
+                     loosest = 0.5; // most sizes can be packed to the first, all to the last
     TileOptions options;
     options.variants = 1;
     for (double fraction = std::min(sample.pack_rate, densest);; fraction *= looser) {
@@ -78,8 +80,11 @@ BedWalk walk_like(const World& world, const PackingSample& sample, const Progres
     for (const PackingSample::Grain& grain : grains) types[grain.row].push_back(grain.type);
 
     // Mean radii as the unit of length, whatever it is in the world.
-    const double unit = world.fill ? world.fill->fill().tile().mean_radius() * world.fill->fill().scale() * world.space.length(1) : mean_of(grains);
-    const double half = 2000 / std::min(sample.pack_rate, 1.0); // no walk comes near the faces, and a larger cube costs no more
+    const double unit =
+        world.fill ? world.fill->fill().tile().mean_radius() * world.fill->fill().scale() * world.space.length(1)
+                   : mean_of(grains);
+    const double half =
+        2000 / std::min(sample.pack_rate, 1.0); // no walk comes near the faces, and a larger cube costs no more
     World bed;
     bed.types = world.types;
     for (GrainType& type : bed.types) {
@@ -87,8 +92,10 @@ BedWalk walk_like(const World& world, const PackingSample& sample, const Progres
         type.exemplar = nullptr; // grains are proxies
         if (!type.gsdf) type.gsdf = world.types[grains.front().type].gsdf; // of no grain
     }
-    const auto fill = std::make_shared<ProceduralFill>(std::make_shared<const Domain>(box_mesh(V3d(-half), V3d(half)), "a cube"), tile, FillOptions{1, 0});
-    bed.fill = std::make_shared<GrainFill>(fill, std::make_shared<RowMixture>(std::move(types), grains.front().type), bed.space);
+    const auto fill = std::make_shared<ProceduralFill>(
+        std::make_shared<const Domain>(box_mesh(V3d(-half), V3d(half)), "a cube"), tile, FillOptions{1, 0});
+    bed.fill = std::make_shared<GrainFill>(fill, std::make_shared<RowMixture>(std::move(types), grains.front().type),
+                                           bed.space);
     bed.domain = fill->domain().bounds();
     const Tracer tracer(std::make_shared<EmbreeDevice>(), bed);
     PackingWalkOptions options;

@@ -10,7 +10,8 @@ struct BedWalk {
     double pack_rate = 0; ///< of the packing walked in
 };
 
-/// Walks in an endless packing like that of a world: its tile, or one packed of the sample's grains as densely, or as densely as they go.
+/// Walks in an endless packing like that of a world: its tile, or one packed of the sample's grains as densely, or as
+/// densely as they go.
 ///
 /// The lengths of the result are those of `world`. Throws InputError (grains that do not pack), Cancelled.
 BedWalk walk_like(const World& world, const PackingSample& sample, const Progress& progress);

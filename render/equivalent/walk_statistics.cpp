@@ -13,7 +13,8 @@ Measured measured_ratio(std::span<const double> above, std::span<const double> b
     if (all_below == 0) return {};
     const double ratio = all_above / all_below;
     double residual2 = 0;
-    for (size_t i = 0; i < above.size(); ++i) residual2 += (above[i] - ratio * below[i]) * (above[i] - ratio * below[i]);
+    for (size_t i = 0; i < above.size(); ++i)
+        residual2 += (above[i] - ratio * below[i]) * (above[i] - ratio * below[i]);
     return {ratio, n > 1 ? std::sqrt(residual2 * n / (n - 1)) / std::abs(all_below) : 0};
 }
 
@@ -54,7 +55,9 @@ void WalkBatch::add(const WalkTrail& trail)
     walks_.push_back(nodes_.size());
     V3d kept(0);
     for (size_t i = 0; i <= n; ++i) {
-        nodes_.push_back({V3f(trail.position[i] - trail.position[0]), V3f(trail.direction[i]), {static_cast<float>(kept.x), static_cast<float>(kept.y), static_cast<float>(kept.z)}});
+        nodes_.push_back({V3f(trail.position[i] - trail.position[0]),
+                          V3f(trail.direction[i]),
+                          {static_cast<float>(kept.x), static_cast<float>(kept.y), static_cast<float>(kept.z)}});
         if (i == n) break;
         for (int c = 0; c < 3; ++c) kept[c] += std::log(std::max(trail.kept[i][c], 1e-30));
     }
@@ -113,7 +116,8 @@ Measured WalkStatistics::diffusivity(Windows WalkBatch::*windows) const
     for (const WalkBatch& batch : batches_) {
         const Windows& sums = batch.*windows;
         // The last term is zero over all batches, and brings in how l* itself scatters.
-        const double of_l = (sums.transport - l * (sums.count - sums.direction)) * all.last / (all.count - all.direction);
+        const double of_l =
+            (sums.transport - l * (sums.count - sums.direction)) * all.last / (all.count - all.direction);
         above.push_back(sums.own + sums.later + l * sums.last + of_l);
         below.push_back(sums.count);
     }
@@ -127,7 +131,8 @@ PackingDecay WalkStatistics::decay(int channel) const
     if (decay.albedo >= 1) return decay;
     const uint32_t longest = batches_.empty() ? 0 : 2 * batches_.front().memory_;
     // Few scatterings will do, but what they lose must be seen; of many, the few ways that lead far decide.
-    const double per_step = -std::log(std::max(decay.albedo, 1e-6)), most = std::min<double>(longest, std::max(4.0, 2.5 / per_step));
+    const double per_step = -std::log(std::max(decay.albedo, 1e-6)),
+                 most = std::min<double>(longest, std::max(4.0, 2.5 / per_step));
     decay.steps = static_cast<uint32_t>(std::clamp(std::round(0.25 / per_step), 2.0, 0.5 * most));
     decay.check = decay_of_steps(channel, decay.steps);
     decay.steps *= 2;
@@ -154,8 +159,8 @@ Measured WalkStatistics::decay_of_steps(int channel, uint32_t steps) const
             for (size_t i = walks[walk]; i + steps < end; i += std::max(1u, steps / 2)) {
                 const auto &from = nodes[i], &to = nodes[i + steps];
                 const V3f way = to.position - from.position, along = way.normalized();
-                ways[b].push_back({way.length(), along.dot(from.direction), along.dot(to.direction), from.direction.dot(to.direction),
-                                   std::exp(to.kept[c] - from.kept[c])});
+                ways[b].push_back({way.length(), along.dot(from.direction), along.dot(to.direction),
+                                   from.direction.dot(to.direction), std::exp(to.kept[c] - from.kept[c])});
             }
         }
     }

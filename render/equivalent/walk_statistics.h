@@ -16,8 +16,8 @@ Measured measured_ratio(std::span<const double> above, std::span<const double> b
 /// One lossless walk from scattering to scattering.
 struct WalkTrail {
     std::vector<V3d> position, direction; ///< where flight i starts and where to; one more of them than scatterings
-    std::vector<V3d> kept;                ///< per channel what scattering i keeps, that at the end of flight i
-    std::vector<double> flight;           ///< length of flight i
+    std::vector<V3d> kept; ///< per channel what scattering i keeps, that at the end of flight i
+    std::vector<double> flight; ///< length of flight i
 
     uint64_t scatterings() const { return kept.size(); }
     void clear();
@@ -25,10 +25,10 @@ struct WalkTrail {
 
 /// How light decays deep in the packing, in one channel.
 struct PackingDecay {
-    double albedo = 1;  ///< mean weight of a scattering
-    Measured kappa;     ///< per unit of length; 0 where nothing is lost
+    double albedo = 1; ///< mean weight of a scattering
+    Measured kappa; ///< per unit of length; 0 where nothing is lost
     uint32_t steps = 0; ///< scatterings of the ways that it is from
-    Measured check;     ///< from ways of half as many
+    Measured check; ///< from ways of half as many
 };
 
 /// Sums over the walks of one batch, and their places; batches may be filled by different threads.
@@ -41,8 +41,8 @@ public:
 private:
     friend class WalkStatistics;
     struct Node {
-        V3f position, direction;    // from the walk's start
-        std::array<float, 3> kept;  // logarithm of, up to here
+        V3f position, direction; // from the walk's start
+        std::array<float, 3> kept; // logarithm of, up to here
     };
     /// Over windows of `memory` scatterings after a step Y with direction w.
     struct Windows {
@@ -62,9 +62,9 @@ private:
 
 /// What the batches say together.
 ///
-/// Of a stationary walk every scattering is a fair start. With steps Y_i, D = <Y_i^2> / 2 + sum of <Y_i . Y_(i+k)> over k >= 1 and
-/// l* = <w_i . (Y_i + Y_(i+1) + ...)>. The sums are taken up to `memory`; beyond, a walk goes on along its direction w by
-/// l* w, as any does: l* = <w_0 . x_m> / (1 - <w_0 . w_m>), and with it the rest of D.
+/// Of a stationary walk every scattering is a fair start. With steps Y_i, D = <Y_i^2> / 2 + sum of <Y_i . Y_(i+k)> over
+/// k >= 1 and l* = <w_i . (Y_i + Y_(i+1) + ...)>. The sums are taken up to `memory`; beyond, a walk goes on along its
+/// direction w by l* w, as any does: l* = <w_0 . x_m> / (1 - <w_0 . w_m>), and with it the rest of D.
 class WalkStatistics {
 public:
     explicit WalkStatistics(std::span<const WalkBatch> batches) : batches_(batches) {}
@@ -90,8 +90,9 @@ private:
     std::span<const WalkBatch> batches_;
 };
 
-/// How many scatterings it takes until light of mean cosine g has forgotten its direction to a hundredth; at least 12, as long as
-/// opaque grains find the ways free that they were met by (measured: memory 8 leaves 1 % of l* at pack rate 0.6, 16 half a per cent).
+/// How many scatterings it takes until light of mean cosine g has forgotten its direction to a hundredth; at least 12,
+/// as long as opaque grains find the ways free that they were met by (measured: memory 8 leaves 1 % of l* at pack rate
+/// 0.6, 16 half a per cent).
 uint32_t walk_memory(double g);
 
 } // namespace scree

@@ -14,7 +14,7 @@ namespace {
 
 // Plain numbers without pointers, though Imath's constructors keep them from being trivially copyable.
 template <class T>
-inline constexpr bool plain = std::is_standard_layout_v<T> && std::is_trivially_destructible_v<T>;
+inline constexpr bool plain = std::is_standard_layout_v<T>&& std::is_trivially_destructible_v<T>;
 static_assert(plain<Pixel> && plain<PixelHalves> && plain<TileState>);
 
 template <class T>
@@ -39,8 +39,8 @@ struct Head {
     std::array<int32_t, 6> window;
 
     Head(const Film& film, const CheckpointKey& key)
-        : scene_hash(key.scene_hash), seed(key.seed), halves(film.halves().size()),
-          window{film.width(), film.height(), film.x0(), film.y0(), film.x1(), film.y1()}
+        : scene_hash(key.scene_hash), seed(key.seed),
+          halves(film.halves().size()), window{film.width(), film.height(), film.x0(), film.y0(), film.x1(), film.y1()}
     {
     }
 };
@@ -56,7 +56,8 @@ void write_checkpoint(const std::filesystem::path& path, const Film& film, const
     write_all(out, film.pixels());
     write_all(out, film.halves());
     write_all(out, film.tile_states().tiles);
-    for (const uint32_t* x : {&film.tile_states().done, &film.tile_states().level}) out.write(reinterpret_cast<const char*>(x), sizeof *x);
+    for (const uint32_t* x : {&film.tile_states().done, &film.tile_states().level})
+        out.write(reinterpret_cast<const char*>(x), sizeof *x);
     out.close();
     if (!out) throw InputError(path.string(), "a disk that is full or cannot be written", "room for the checkpoint");
     file.commit();
@@ -69,10 +70,12 @@ void read_checkpoint(const std::filesystem::path& path, Film& film, const Checkp
     Head found = expected;
     in.read(reinterpret_cast<char*>(&found), sizeof found);
     if (!in || found.magic != expected.magic || found.pixel_bytes != expected.pixel_bytes) {
-        throw InputError(path.string(), "no checkpoint of this version", "a checkpoint", "remove it, or render without --resume");
+        throw InputError(path.string(), "no checkpoint of this version", "a checkpoint",
+                         "remove it, or render without --resume");
     }
     if (std::memcmp(&found, &expected, sizeof found) != 0) {
-        throw InputError(path.string(), "a checkpoint of another picture (scene, input, seed, size, crop or --error differ)",
+        throw InputError(path.string(),
+                         "a checkpoint of another picture (scene, input, seed, size, crop or --error differ)",
                          "one of this picture", "remove it, or render without --resume");
     }
     std::vector<Pixel> pixels = read_all(in, film.pixels());
@@ -80,7 +83,9 @@ void read_checkpoint(const std::filesystem::path& path, Film& film, const Checkp
     TileStates states;
     states.tiles = read_all(in, film.tile_states().tiles);
     for (uint32_t* x : {&states.done, &states.level}) in.read(reinterpret_cast<char*>(x), sizeof *x);
-    if (!in) throw InputError(path.string(), "a checkpoint that ends early", "a whole one", "remove it, or render without --resume");
+    if (!in)
+        throw InputError(path.string(), "a checkpoint that ends early", "a whole one",
+                         "remove it, or render without --resume");
     film.pixels() = std::move(pixels);
     film.halves() = std::move(halves);
     film.tile_states() = std::move(states);

@@ -53,7 +53,8 @@ public:
         const auto insert = [&](const std::string& name, const void* data, Imf::PixelType type) {
             // OpenEXR wants the address that pixel (0, 0) of the display window would have.
             auto* base = const_cast<char*>(static_cast<const char*>(data));
-            base -= static_cast<std::ptrdiff_t>(film_.x0()) * 4 + static_cast<std::ptrdiff_t>(film_.y0()) * static_cast<std::ptrdiff_t>(row);
+            base -= static_cast<std::ptrdiff_t>(film_.x0()) * 4 +
+                    static_cast<std::ptrdiff_t>(film_.y0()) * static_cast<std::ptrdiff_t>(row);
             buffer.insert(name, Imf::Slice(type, base, 4, row));
         };
         for (const auto& item : floats_) insert(item.first, item.second.data(), Imf::FLOAT);
@@ -74,17 +75,20 @@ Channels collect(const Film& film, const std::vector<Aov>& aov, double depth_sca
     for (const Aov which : aov) {
         switch (which) {
         case Aov::albedo:
-            channels.add_rgb("albedo.", [](const Pixel& p) { return p.albedo / static_cast<float>(std::max(1u, p.samples)); });
+            channels.add_rgb("albedo.",
+                             [](const Pixel& p) { return p.albedo / static_cast<float>(std::max(1u, p.samples)); });
             break;
         case Aov::normal: {
             const char* names[] = {"N.X", "N.Y", "N.Z"};
             for (int c = 0; c < 3; ++c) {
-                channels.add(names[c], [c](const Pixel& p) { return p.normal[c] / static_cast<float>(std::max(1u, p.hits)); });
+                channels.add(names[c],
+                             [c](const Pixel& p) { return p.normal[c] / static_cast<float>(std::max(1u, p.hits)); });
             }
             break;
         }
         case Aov::depth:
-            channels.add("Z", [&](const Pixel& p) { return static_cast<float>(depth_scale * p.depth / std::max(1u, p.hits)); });
+            channels.add(
+                "Z", [&](const Pixel& p) { return static_cast<float>(depth_scale * p.depth / std::max(1u, p.hits)); });
             break;
         case Aov::type: channels.add_integer("type", [](const Pixel& p) { return p.type; }); break;
         case Aov::id: channels.add_integer("id", [](const Pixel& p) { return p.id; }); break;
@@ -108,7 +112,8 @@ void write_exr(const std::filesystem::path& path, const Film& film, const std::v
                            Box2i(V2i(film.x0(), film.y0()), V2i(film.x1() - 1, film.y1() - 1)));
         header.compression() = Imf::ZIP_COMPRESSION;
         for (const auto& [key, text] : metadata.texts) header.insert(key, Imf::StringAttribute(text));
-        for (const auto& [key, number] : metadata.numbers) header.insert(key, Imf::FloatAttribute(static_cast<float>(number)));
+        for (const auto& [key, number] : metadata.numbers)
+            header.insert(key, Imf::FloatAttribute(static_cast<float>(number)));
         header.insert("worldToCamera", Imf::M44fAttribute(Imath::M44f(metadata.world_to_camera)));
         header.insert("worldToNDC", Imf::M44fAttribute(Imath::M44f(metadata.world_to_ndc)));
         header.insert("chromaticities", Imf::ChromaticitiesAttribute(Imf::Chromaticities())); // Rec. 709

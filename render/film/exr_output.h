@@ -14,10 +14,10 @@ namespace scree {
 
 /// What an EXR says of how it came to be.
 struct PictureMetadata {
-    std::map<std::string, std::string> texts;  ///< EXR string attributes
-    std::map<std::string, double> numbers;     ///< EXR float attributes
+    std::map<std::string, std::string> texts; ///< EXR string attributes
+    std::map<std::string, double> numbers; ///< EXR float attributes
     Imath::M44d world_to_camera, world_to_ndc;
-    double depth_scale = 1;                    ///< from render coordinates to the scene's unit
+    double depth_scale = 1; ///< from render coordinates to the scene's unit
 };
 
 /// Writes the picture as 32-bit float scan lines: R G B, and per AOV albedo.R .G .B, N.X .Y .Z, Z (0 where nothing was

@@ -31,7 +31,8 @@ Color Pixel::variance() const
     if (samples < 2) return Color(0);
     const double n = samples;
     const Imath::V3d m = sum / n, v = (sum_of_squares / n - m * m) / (n - 1);
-    return {static_cast<Real>(std::max(0.0, v.x)), static_cast<Real>(std::max(0.0, v.y)), static_cast<Real>(std::max(0.0, v.z))};
+    return {static_cast<Real>(std::max(0.0, v.x)), static_cast<Real>(std::max(0.0, v.y)),
+            static_cast<Real>(std::max(0.0, v.z))};
 }
 
 Film::Film(int width, int height, int x0, int y0, int x1, int y1)

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/film/halves.h"
 #include "base/math.h"
+#include "render/film/halves.h"
 
 #include <cstdint>
 #include <limits>
@@ -16,16 +16,16 @@ struct FirstHit {
     bool hit = false;
     Color albedo{0};
     V3f normal{0};
-    double depth = 0;          ///< along the view, render coordinates
+    double depth = 0; ///< along the view, render coordinates
     uint32_t type = no_grain;
     uint64_t id = no_grain;
 };
 
 /// A pixel's running sums; double, so that 2^20 samples add without loss.
 struct Pixel {
-    uint32_t drawn = 0;   ///< samples taken
+    uint32_t drawn = 0; ///< samples taken
     uint32_t samples = 0; ///< of them, those that were finite: the others are dropped
-    uint32_t hits = 0;    ///< of them, those that met something
+    uint32_t hits = 0; ///< of them, those that met something
     Imath::V3d sum{0}, sum_of_squares{0};
     Color albedo{0};
     V3f normal{0};

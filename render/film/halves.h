@@ -12,10 +12,11 @@ namespace scree {
 
 inline constexpr uint32_t undecided = std::numeric_limits<uint32_t>::max();
 
-/// How many samples of each half count in the pixels of a tile, which may be more than are drawn yet; `undecided` until the other half has said.
+/// How many samples of each half count in the pixels of a tile, which may be more than are drawn yet; `undecided` until
+/// the other half has said.
 ///
-/// Half 0 has the samples of even number, half 1 those of odd number. counts[0] is decided by half 1 alone and the other way
-/// round, so that a half's mean is unbiased whatever was drawn.
+/// Half 0 has the samples of even number, half 1 those of odd number. counts[0] is decided by half 1 alone and the
+/// other way round, so that a half's mean is unbiased whatever was drawn.
 struct HalfCounts {
     std::array<uint32_t, 2> counts{undecided, undecided};
 
@@ -36,7 +37,8 @@ struct HalfSums {
 /// The samples of a pixel in two halves that share nothing.
 class PixelHalves {
 public:
-    /// The number of the sample to draw next, the lowest, so that in the end each half has had so many; nothing once it has.
+    /// The number of the sample to draw next, the lowest, so that in the end each half has had so many; nothing once it
+    /// has.
     std::optional<uint32_t> next(const std::array<uint32_t, 2>& each) const;
     /// A sample was drawn, finite or not.
     void note_drawn(uint32_t number) { ++drawn_[number & 1]; }
@@ -61,13 +63,14 @@ private:
 /// What the samples of one half say of a tile.
 struct TileEstimate {
     int64_t pixels = 0;
-    V3d sum{0};           ///< of the pixels' means
-    double variance = 0;  ///< of one sample, relative (RelativeError), mean over the pixels
+    V3d sum{0}; ///< of the pixels' means
+    double variance = 0; ///< of one sample, relative (RelativeError), mean over the pixels
     double deviation = 0; ///< standard error of `variance`
-    double work = 1;      ///< of one sample, mean over the pixels
+    double work = 1; ///< of one sample, mean over the pixels
 };
 
-/// A tile: what counts of its halves and what these said last. estimates[h] is of half h, which decides on the other one.
+/// A tile: what counts of its halves and what these said last. estimates[h] is of half h, which decides on the other
+/// one.
 struct TileState {
     HalfCounts counts;
     std::array<uint64_t, 2> work{0, 0}; ///< of all samples of each half, counted or not: rays, and what takes as long
@@ -76,7 +79,7 @@ struct TileState {
 
 /// How far a picture has come. Samples are those of a half, wherever they are asked for.
 struct TileStates {
-    uint32_t done = 0;  ///< that there are
+    uint32_t done = 0; ///< that there are
     uint32_t level = 1; ///< that there are to be next
     std::vector<TileState> tiles;
 };

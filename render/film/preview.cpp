@@ -1,15 +1,16 @@
 #include "render/film/exr_output.h"
 
-#include "base/error.h"
 #include "base/drawing/picture_file.h"
 #include "base/drawing/srgb.h"
+#include "base/error.h"
 
 namespace scree {
 
 void check_preview_format(const std::filesystem::path& path)
 {
     if (can_write_picture_file(path)) return;
-    throw InputError(path.string(), "the extension '" + path.extension().string() + "'", "a picture format: .exr, .png, .jpg, ...");
+    throw InputError(path.string(), "the extension '" + path.extension().string() + "'",
+                     "a picture format: .exr, .png, .jpg, ...");
 }
 
 void write_preview(const std::filesystem::path& path, const Film& film)

@@ -6,8 +6,8 @@ namespace scree {
 
 /// Squared errors of pixels relative to what they should be, so that dark and bright parts of a picture count alike.
 ///
-/// Pixels much darker than the picture count as if they were a tenth as bright as its mean, or noise in the black would be
-/// all. Both are free of the picture's unit. Müller et al. 2016 call the mean of it over a picture MRSE.
+/// Pixels much darker than the picture count as if they were a tenth as bright as its mean, or noise in the black would
+/// be all. Both are free of the picture's unit. Müller et al. 2016 call the mean of it over a picture MRSE.
 class RelativeError {
 public:
     /// mean: of the picture.

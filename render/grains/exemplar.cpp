@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "ingest/meshes/enclosing_sphere.h"
-#include "render/embree/triangle.h"
 #include "render/embree/embree_ray.h"
+#include "render/embree/triangle.h"
 
 namespace scree {
 
@@ -26,8 +26,8 @@ void keep_wanted_faces(const RTCFilterFunctionNArguments* args)
     const auto* hit = reinterpret_cast<const RTCHit*>(args->hit);
     const float side = hit->Ng_x * ray->dir_x + hit->Ng_y * ray->dir_y + hit->Ng_z * ray->dir_z;
     if (hit->primID == query->skip || side * query->wanted < 0) args->valid[0] = 0;
-    // Within what rounding may have moved the start, a neighbour of `skip` may seem to be entered: double arithmetic tells.
-    // From inside, at an edge, the neighbour is left at once indeed.
+    // Within what rounding may have moved the start, a neighbour of `skip` may seem to be entered: double arithmetic
+    // tells. From inside, at an edge, the neighbour is left at once indeed.
     else if (query->wanted <= 0 && query->skip != no_triangle && ray->tfar <= 0x1p-20f &&
              !meets_triangle(query->exemplar->corners(hit->primID), query->o, query->d, query->rounding)) {
         args->valid[0] = 0;
@@ -52,8 +52,8 @@ Exemplar::Exemplar(const EmbreeDevice& device, const TriangleMesh& mesh, const s
     scene_ = rtcNewScene(device.get());
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
     RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<V3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                               sizeof(V3f), positions.size()));
+    auto* vertices = static_cast<V3f*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(V3f), positions.size()));
     auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                                    3 * sizeof(uint32_t), mesh.triangles.size()));
     device.check("building an exemplar");
@@ -89,23 +89,17 @@ V3d Exemplar::point(const ExemplarHit& hit) const
     return a + static_cast<double>(hit.u) * (b - a) + static_cast<double>(hit.v) * (c - a);
 }
 
-V3d Exemplar::normal(uint32_t triangle) const
-{
-    return unit_normal(corners(triangle));
-}
+V3d Exemplar::normal(uint32_t triangle) const { return unit_normal(corners(triangle)); }
 
-uint64_t Exemplar::bytes() const
-{
-    return corners_.size() * sizeof(corners_[0]);
-}
+uint64_t Exemplar::bytes() const { return corners_.size() * sizeof(corners_[0]); }
 
 bool Exemplar::intersect(const V3d& o, const V3d& d, double rounding, double tmax, Facing facing, uint32_t skip,
                          ExemplarHit& hit) const
 {
     V3d start = o;
     if (skip != no_triangle) {
-        // Rounding to float moves a coordinate of size <= 1 by up to 2^-25, and Embree's own subtraction rounds once more:
-        // step off the face by that bound, so that the neighbours of `skip` are seen from the right side.
+        // Rounding to float moves a coordinate of size <= 1 by up to 2^-25, and Embree's own subtraction rounds once
+        // more: step off the face by that bound, so that the neighbours of `skip` are seen from the right side.
         const V3d n = normal(skip);
         const double bound = 0x1p-23 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
         start += std::copysign(bound, n.dot(d)) * n;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "ingest/meshes/triangle_mesh.h"
 #include "base/math.h"
+#include "ingest/meshes/triangle_mesh.h"
 #include "render/embree/embree_device.h"
 
 #include <array>
@@ -37,9 +37,10 @@ public:
     Exemplar(const Exemplar&) = delete;
     Exemplar& operator=(const Exemplar&) = delete;
 
-    /// Nearest face of the wanted facing along o + t d, 0 <= t <= tmax. o lies within the unit sphere (or on it), d is unit.
-    /// `skip` is the face o lies on, if any; rounding: by how much o may lie off it.
-    bool intersect(const V3d& o, const V3d& d, double rounding, double tmax, Facing facing, uint32_t skip, ExemplarHit& hit) const;
+    /// Nearest face of the wanted facing along o + t d, 0 <= t <= tmax. o lies within the unit sphere (or on it), d is
+    /// unit. `skip` is the face o lies on, if any; rounding: by how much o may lie off it.
+    bool intersect(const V3d& o, const V3d& d, double rounding, double tmax, Facing facing, uint32_t skip,
+                   ExemplarHit& hit) const;
 
     /// The point of a hit, from the vertices, in double.
     V3d point(const ExemplarHit& hit) const;

@@ -9,7 +9,8 @@ namespace {
 
 } // namespace
 
-GrainFill::GrainFill(std::shared_ptr<const ProceduralFill> fill, std::shared_ptr<const Mixture> mixture, const RenderSpace& space)
+GrainFill::GrainFill(std::shared_ptr<const ProceduralFill> fill, std::shared_ptr<const Mixture> mixture,
+                     const RenderSpace& space)
     : fill_(std::move(fill)), mixture_(std::move(mixture)), origin_(space.origin), factor_(space.length(1))
 {
     double least = std::numeric_limits<double>::infinity();

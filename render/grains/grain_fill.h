@@ -1,9 +1,9 @@
 #pragma once
 
+#include "base/render_space.h"
 #include "mixtures/mixture.h"
 #include "packing/fill/procedural_fill.h"
 #include "render/grains/grain_store.h"
-#include "base/render_space.h"
 
 #include <memory>
 
@@ -11,10 +11,12 @@ namespace scree {
 
 /// The grains of a procedural fill in render coordinates: a GrainStore that lists nothing. A grain is known by its id.
 ///
-/// Places and radii are what a GrainStore of the same spheres would hold, rounded to float, so that both make the same picture.
+/// Places and radii are what a GrainStore of the same spheres would hold, rounded to float, so that both make the same
+/// picture.
 class GrainFill {
 public:
-    GrainFill(std::shared_ptr<const ProceduralFill> fill, std::shared_ptr<const Mixture> mixture, const RenderSpace& space);
+    GrainFill(std::shared_ptr<const ProceduralFill> fill, std::shared_ptr<const Mixture> mixture,
+              const RenderSpace& space);
 
     const ProceduralFill& fill() const { return *fill_; }
 

@@ -26,8 +26,8 @@ FloatMargin::FloatMargin(double extent, double least, double largest)
     complete = needed <= most;
     ulps = static_cast<uint32_t>(std::min(most, needed));
     const double wider = largest * ulps * 0x1p-23;
-    // The near faces of a sphere and of a wider one are at most this far apart along any line that meets both. As a power of two
-    // it is hardly ever different for a fill and for the list of its spheres.
+    // The near faces of a sphere and of a wider one are at most this far apart along any line that meets both. As a
+    // power of two it is hardly ever different for a fill and for the list of its spheres.
     step_back = power_of_two_from(std::sqrt(2 * largest * wider + wider * wider) + error);
 }
 

@@ -14,10 +14,10 @@ struct GrainSphere {
     double radius;
 };
 
-/// What Embree's arithmetic in float may get wrong of spheres, and what makes it propose every one whose ray really meets
-/// it: radii widened by some steps of float, and rays that start a little further back.
+/// What Embree's arithmetic in float may get wrong of spheres, and what makes it propose every one whose ray really
+/// meets it: radii widened by some steps of float, and rays that start a little further back.
 struct FloatMargin {
-    uint32_t ulps = 0;    ///< added to the bits of each radius
+    uint32_t ulps = 0; ///< added to the bits of each radius
     bool complete = false; ///< every sphere that a ray is to enter is proposed by its near face
     double step_back = 0; ///< beyond which a ray's start is outside of every widened sphere that it is yet to enter
 
@@ -39,12 +39,12 @@ struct GrainStore {
         float r; ///< as Embree is to see it: `margin` wider than the grain
     };
 
-    std::vector<Sphere> spheres;         ///< one more entry than grains: Embree reads 16 bytes beyond the last
-    std::vector<uint8_t> type_codes;     ///< grain type per grain
-    std::vector<uint64_t> ids;           ///< empty when id = first_id + index
+    std::vector<Sphere> spheres; ///< one more entry than grains: Embree reads 16 bytes beyond the last
+    std::vector<uint8_t> type_codes; ///< grain type per grain
+    std::vector<uint64_t> ids; ///< empty when id = first_id + index
     uint64_t first_id = 0;
     std::vector<Imath::Quatf> orientation; ///< of the mesh grains, or empty: then by hash of id
-    uint32_t analytic_count = 0;           ///< how many of them are spheres themselves
+    uint32_t analytic_count = 0; ///< how many of them are spheres themselves
     FloatMargin margin;
 
     uint32_t size() const { return static_cast<uint32_t>(type_codes.size()); }

@@ -1,7 +1,7 @@
 #include "render/grains/shape_source.h"
 
-#include "base/error.h"
 #include "base/content_hash.h"
+#include "base/error.h"
 
 #include <fstream>
 
@@ -27,14 +27,17 @@ uint64_t hash_shape(const ShapeSource& source)
     return source.mesh ? hash_file(*source.mesh) : source.has_mesh() ? hash_shape(*source.library, source.options) : 0;
 }
 
-std::shared_ptr<const Exemplar> make_exemplar(const EmbreeDevice& device, const ShapeSource& source, const Material& material, const std::string& place,
+std::shared_ptr<const Exemplar> make_exemplar(const EmbreeDevice& device, const ShapeSource& source,
+                                              const Material& material, const std::string& place,
                                               const std::string& name)
 {
     const std::string where = source.mesh ? source.mesh->string() : place;
-    const TriangleMesh mesh = source.mesh ? read_mesh(*source.mesh) : make_grain_shape(*source.library, source.options, where);
+    const TriangleMesh mesh =
+        source.mesh ? read_mesh(*source.mesh) : make_grain_shape(*source.library, source.options, where);
     auto exemplar = std::make_shared<Exemplar>(device, mesh, where);
     if (material.transmits() && !exemplar->closed()) {
-        throw InputError(where, "an open or inconsistently oriented mesh", "a closed mesh, as the material of '" + name + "' is a dielectric",
+        throw InputError(where, "an open or inconsistently oriented mesh",
+                         "a closed mesh, as the material of '" + name + "' is a dielectric",
                          "close it, or give the type an opaque material");
     }
     return exemplar;

@@ -12,7 +12,10 @@ using Field = std::vector<double>; // strata * cells
 constexpr uint32_t strata = Gsdf::strata, cells = Gsdf::cells;
 constexpr int rows = Grid::rows, columns = Grid::columns;
 
-size_t at(uint32_t stratum, int row, int column) { return static_cast<size_t>(stratum) * cells + Grid::neighbour(row, column); }
+size_t at(uint32_t stratum, int row, int column)
+{
+    return static_cast<size_t>(stratum) * cells + Grid::neighbour(row, column);
+}
 
 /// Density of a half by counting; `total` receives how many fell into each stratum.
 Field count_density(const DirectionCounts& counts, std::array<double, strata>& total)
@@ -23,7 +26,8 @@ Field count_density(const DirectionCounts& counts, std::array<double, strata>& t
         total[s] = 0;
         for (uint32_t c = 0; c < cells; ++c) total[s] += static_cast<double>(counts[begin + c]);
         for (uint32_t c = 0; c < cells; ++c) {
-            density[begin + c] = total[s] > 0 ? static_cast<double>(counts[begin + c]) / (total[s] * Grid::area(c)) : 1 / (4 * pi);
+            density[begin + c] =
+                total[s] > 0 ? static_cast<double>(counts[begin + c]) / (total[s] * Grid::area(c)) : 1 / (4 * pi);
         }
     }
     return density;
@@ -39,7 +43,8 @@ void smooth_poles(Field& field)
             for (int pass = 0; pass < std::min(64, static_cast<int>(narrow * narrow)); ++pass) {
                 for (int c = 0; c < columns; ++c) values[static_cast<size_t>(c)] = field[at(s, row, c)];
                 for (int c = 0; c < columns; ++c) {
-                    const double sides = values[static_cast<size_t>((c + columns - 1) % columns)] + values[static_cast<size_t>((c + 1) % columns)];
+                    const double sides = values[static_cast<size_t>((c + columns - 1) % columns)] +
+                                         values[static_cast<size_t>((c + 1) % columns)];
                     field[at(s, row, c)] = 0.5 * values[static_cast<size_t>(c)] + 0.25 * sides;
                 }
             }
@@ -111,7 +116,8 @@ Field smoothed(const Field& field, const Smoothing& how)
 /// Weighs the fit of two densities.
 class Judge {
 public:
-    Judge(const std::array<DirectionCounts, 2>& halves, const std::array<double, strata>& stratum_mass) : mass_(stratum_mass)
+    Judge(const std::array<DirectionCounts, 2>& halves, const std::array<double, strata>& stratum_mass)
+        : mass_(stratum_mass)
     {
         for (size_t half = 0; half < 2; ++half) density_[half] = count_density(halves[half], total_[half]);
         Field both(density_[0].size());
@@ -122,15 +128,16 @@ public:
     }
 
     struct Verdict {
-        double half = 0;  ///< squared error of a smoothed half
-        double full = 0;  ///< of both halves together
+        double half = 0; ///< squared error of a smoothed half
+        double full = 0; ///< of both halves together
         double spread = 0; ///< standard error of these estimates
     };
 
     Verdict judge(const Smoothing& how) const
     {
         const Field a = smoothed(density_[0], how), b = smoothed(density_[1], how);
-        // What a half foretells is off from the other by its own error and by the other's noise, which is known: Poisson's.
+        // What a half foretells is off from the other by its own error and by the other's noise, which is known:
+        // Poisson's.
         Verdict verdict;
         std::array<double, strata> halves{};
         for (uint32_t s = 0; s < strata; ++s) {
@@ -163,7 +170,8 @@ public:
         for (uint32_t s = 0; s < strata; ++s) {
             const double sum = total_[0][s] + total_[1][s];
             const double share = sum > 0 ? total_[0][s] / sum : 0.5;
-            for (size_t i = at(s, 0, 0); i < at(s, 0, 0) + cells; ++i) both[i] = share * density_[0][i] + (1 - share) * density_[1][i];
+            for (size_t i = at(s, 0, 0); i < at(s, 0, 0) + cells; ++i)
+                both[i] = share * density_[0][i] + (1 - share) * density_[1][i];
         }
         return smoothed(both, how);
     }
@@ -221,7 +229,8 @@ std::vector<Smoothing> neighbours(const Smoothing& from)
 
 } // namespace
 
-DensityFit fit_density(const std::array<DirectionCounts, 2>& halves, const std::array<double, strata>& stratum_mass, const Smoothing& start)
+DensityFit fit_density(const std::array<DirectionCounts, 2>& halves, const std::array<double, strata>& stratum_mass,
+                       const Smoothing& start)
 {
     const Judge judge(halves, stratum_mass);
     DensityFit fit;
@@ -237,8 +246,8 @@ DensityFit fit_density(const std::array<DirectionCounts, 2>& halves, const std::
             any = true;
         }
     }
-    // Of errors like a Gaussian's, the mean is sqrt(2 / pi) of the root mean square. The estimate has an error of its own, and
-    // the smallest of many is smaller than it should be.
+    // Of errors like a Gaussian's, the mean is sqrt(2 / pi) of the root mean square. The estimate has an error of its
+    // own, and the smallest of many is smaller than it should be.
     fit.error = std::sqrt(2 / pi * (std::max(0.0, best.full) + best.spread));
     fit.density = keep_rows(judge.fit(fit.smoothing), judge.fit({{0, 0, 0}, false, false, false}), stratum_mass);
     return fit;

@@ -4,9 +4,9 @@
 
 namespace scree {
 
-/// Cells over the sphere of directions, equally wide in the polar angle and in azimuth, in the frame of an encounter (see
-/// Encounter); a cell is a row (polar angle, from straight on to straight back) and a column. The plane of incidence lies in the
-/// middle of columns, as much is scattered within it.
+/// Cells over the sphere of directions, equally wide in the polar angle and in azimuth, in the frame of an encounter
+/// (see Encounter); a cell is a row (polar angle, from straight on to straight back) and a column. The plane of
+/// incidence lies in the middle of columns, as much is scattered within it.
 struct DirectionGrid {
     static constexpr uint32_t rows = 64, columns = 32, cells = rows * columns;
     static constexpr double row_width = pi / rows, column_width = 2 * pi / columns;

@@ -6,7 +6,8 @@ namespace scree {
 
 namespace {
 
-// Meshes that run through themselves have pockets with a way in and none out. What is not white has lost all light long before.
+// Meshes that run through themselves have pockets with a way in and none out. What is not white has lost all light long
+// before.
 constexpr uint32_t most_events = 1000000, most_opaque_events = 4096;
 constexpr double rounding = 0x1p-50; // of places in the unit sphere
 

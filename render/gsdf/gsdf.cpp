@@ -22,18 +22,20 @@ struct Tent {
 /// The integral over every cell of a stratum of the density interpolated between the cells' middles.
 void integrate_cells(std::span<const float> density, std::span<float> mass)
 {
-    // In azimuth the mean of the interpolant over a cell is 1/8, 6/8, 1/8 of the neighbours'. In the polar angle each half of
-    // a cell interpolates linearly between two rows, under the weight sin theta.
+    // In azimuth the mean of the interpolant over a cell is 1/8, 6/8, 1/8 of the neighbours'. In the polar angle each
+    // half of a cell interpolates linearly between two rows, under the weight sin theta.
     constexpr int rows = Grid::rows, columns = Grid::columns;
     const double h = 0.5 * Grid::row_width;
     const auto azimuth_mean = [&](int row, int column) {
-        return 0.125 * density[Grid::neighbour(row, column - 1)] + 0.75 * density[Grid::neighbour(row, column)] + 0.125 * density[Grid::neighbour(row, column + 1)];
+        return 0.125 * density[Grid::neighbour(row, column - 1)] + 0.75 * density[Grid::neighbour(row, column)] +
+               0.125 * density[Grid::neighbour(row, column + 1)];
     };
     for (int row = 0; row < rows; ++row) {
         const double middle = (row + 0.5) * Grid::row_width, sine = std::sin(middle), cosine = std::cos(middle);
         // Integrals of sin(middle + x) and of (1 - |x| / row_width) sin(middle + x) over half a row on either side.
         const double full = std::sin(h) * sine, odd = (1 - std::cos(h)) * cosine;
-        const double even_x = std::cos(h) + h * std::sin(h) - 1, odd_x = std::sin(h) - h * std::cos(h); // of x cos x, x sin x
+        const double even_x = std::cos(h) + h * std::sin(h) - 1,
+                     odd_x = std::sin(h) - h * std::cos(h); // of x cos x, x sin x
         for (int column = 0; column < columns; ++column) {
             const double here = azimuth_mean(row, column);
             double sum = 0;
@@ -106,14 +108,12 @@ double Gsdf::alpha0(double q) const
     return low + place.fraction * (high - low);
 }
 
-double Gsdf::mean_alpha0() const
-{
-    return std::accumulate(data_.alpha0.begin(), data_.alpha0.end(), 0.0) / alpha_bins;
-}
+double Gsdf::mean_alpha0() const { return std::accumulate(data_.alpha0.begin(), data_.alpha0.end(), 0.0) / alpha_bins; }
 
 uint32_t Gsdf::stratum(double q, double u)
 {
-    return static_cast<uint32_t>(std::clamp(static_cast<int>(std::floor(q * strata - 0.5 + u)), 0, static_cast<int>(strata) - 1));
+    return static_cast<uint32_t>(
+        std::clamp(static_cast<int>(std::floor(q * strata - 0.5 + u)), 0, static_cast<int>(strata) - 1));
 }
 
 double Gsdf::density(uint32_t stratum, const V3d& w) const
@@ -158,18 +158,22 @@ Weight Gsdf::weight(uint32_t number, const Material& material, double radius) co
     Weight weight = data_.weights.empty() ? Weight(1) : Weight(data_.weights[number]);
     const Weight each = material.kind == MaterialKind::lambert ? material.reflectance : material.tint;
     const double events = r.events;
-    if (each != Weight(1)) weight *= Weight(std::pow(each.x, events), std::pow(each.y, events), std::pow(each.z, events));
-    if (material.transmits() && !is_black(material.absorption)) weight *= exp(Weight(material.absorption) * (-r.length * radius));
+    if (each != Weight(1))
+        weight *= Weight(std::pow(each.x, events), std::pow(each.y, events), std::pow(each.z, events));
+    if (material.transmits() && !is_black(material.absorption))
+        weight *= exp(Weight(material.absorption) * (-r.length * radius));
     return weight;
 }
 
 std::string doubt_of(const GsdfQuality& quality, double wanted_error)
 {
     if (static_cast<double>(quality.lost) > 1e-3 * static_cast<double>(quality.paths)) {
-        return fmt::format("{} of {} paths were lost in the mesh; is it closed, and free of self-intersections?", quality.lost, quality.paths);
+        return fmt::format("{} of {} paths were lost in the mesh; is it closed, and free of self-intersections?",
+                           quality.lost, quality.paths);
     }
     if (quality.density_error <= wanted_error) return "";
-    return fmt::format("known to {:.2g} % and not to the {:g} % asked for", 100 * quality.density_error, 100 * wanted_error);
+    return fmt::format("known to {:.2g} % and not to the {:g} % asked for", 100 * quality.density_error,
+                       100 * wanted_error);
 }
 
 double Gsdf::mean_cosine() const
@@ -188,8 +192,9 @@ double Gsdf::mean_cosine() const
 
 uint64_t Gsdf::bytes() const
 {
-    return (data_.alpha0.size() + data_.density.size() + shape_.size() + cumulated_.size()) * sizeof(float) + data_.first.size() * sizeof(uint32_t) +
-           data_.records.size() * sizeof(GsdfRecord) + data_.weights.size() * sizeof(Imath::C3f);
+    return (data_.alpha0.size() + data_.density.size() + shape_.size() + cumulated_.size()) * sizeof(float) +
+           data_.first.size() * sizeof(uint32_t) + data_.records.size() * sizeof(GsdfRecord) +
+           data_.weights.size() * sizeof(Imath::C3f);
 }
 
 } // namespace scree

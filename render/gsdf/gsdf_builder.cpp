@@ -1,10 +1,10 @@
 #include "render/gsdf/gsdf_builder.h"
 
 #include "base/error.h"
-#include "render/gsdf/density_fit.h"
-#include "render/embree/embree_device.h"
 #include "base/stopwatch.h"
 #include "base/warp.h"
+#include "render/embree/embree_device.h"
+#include "render/gsdf/density_fit.h"
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr uint32_t batch_size = 4096;
 constexpr uint64_t recorded_batches = 128; // 2^19 paths
-constexpr uint32_t most_of_a_cell = 256;   // records
+constexpr uint32_t most_of_a_cell = 256; // records
 
 /// A record and where it belongs.
 struct Scattered {
@@ -63,12 +63,14 @@ Scattered describe(const V3d& entry, const V3d& incoming, const V3d& point, cons
     Scattered s;
     s.stratum = std::min(Gsdf::strata - 1, static_cast<uint32_t>(encounter.q * Gsdf::strata));
     s.cell = DirectionGrid::cell(DirectionGrid::angles(w));
-    s.record = {PackedDirection(encounter.to_local(point)), PackedDirection(w), static_cast<float>(exit.length), exit.events};
+    s.record = {PackedDirection(encounter.to_local(point)), PackedDirection(w), static_cast<float>(exit.length),
+                exit.events};
     s.weight = exit.weight;
     return s;
 }
 
-/// i with its twelve bits in reverse: successive paths lie far apart in q, so that the first records of a cell stand for all.
+/// i with its twelve bits in reverse: successive paths lie far apart in q, so that the first records of a cell stand
+/// for all.
 uint32_t scattered_order(uint32_t i)
 {
     uint32_t reversed = 0;
@@ -103,7 +105,8 @@ void trace_batch(const GrainBody& body, uint64_t seed, uint64_t batch, Counts& c
         counts.cosines += std::llround(cosine * 0x1p30);
         counts.squares += std::llround(cosine * cosine * 0x1p20);
         for (const bool back : {false, true}) {
-            const Scattered s = back ? describe(exit.point, -exit.direction, entry, -d, exit) : describe(entry, d, exit.point, exit.direction, exit);
+            const Scattered s = back ? describe(exit.point, -exit.direction, entry, -d, exit)
+                                     : describe(entry, d, exit.point, exit.direction, exit);
             ++directions[static_cast<size_t>(s.stratum) * Gsdf::cells + s.cell];
             if (recorded) recorded->push_back(s);
         }
@@ -167,7 +170,8 @@ private:
         tbb::parallel_for(done_, batches, [&](uint64_t batch) {
             if (progress_.cancelled()) return;
             flush_subnormals();
-            trace_batch(body_, options_.seed, batch, parts.local(), batch < recorded_batches ? &recorded_[batch] : nullptr);
+            trace_batch(body_, options_.seed, batch, parts.local(),
+                        batch < recorded_batches ? &recorded_[batch] : nullptr);
             progress_.update(stage_, static_cast<double>(++finished) / static_cast<double>(batches));
         });
         if (progress_.cancelled()) throw Cancelled();
@@ -175,7 +179,8 @@ private:
         done_ = batches;
     }
 
-    /// The counts; a stratum that nothing was met in has those of the nearest that has something, as rays between the two ask for it.
+    /// The counts; a stratum that nothing was met in has those of the nearest that has something, as rays between the
+    /// two ask for it.
     std::array<DirectionCounts, 2> lent_to_empty_strata()
     {
         std::array<DirectionCounts, 2> lent = counts_.directions;
@@ -190,8 +195,10 @@ private:
         for (uint32_t s = 0; s < Gsdf::strata; ++s) {
             lender_[s] = s;
             for (uint32_t away = 1; away < Gsdf::strata && !has[lender_[s]]; ++away) {
-                if (s >= away && has[s - away]) lender_[s] = s - away;
-                else if (s + away < Gsdf::strata && has[s + away]) lender_[s] = s + away;
+                if (s >= away && has[s - away])
+                    lender_[s] = s - away;
+                else if (s + away < Gsdf::strata && has[s + away])
+                    lender_[s] = s + away;
             }
             if (lender_[s] == s) continue;
             for (DirectionCounts& counts : lent) {
@@ -206,7 +213,8 @@ private:
     {
         std::vector<float> alpha(Gsdf::alpha_bins);
         for (size_t i = 0; i < alpha.size(); ++i) {
-            alpha[i] = static_cast<float>(static_cast<double>(counts_.missed[i]) / static_cast<double>(std::max<uint64_t>(1, counts_.paths[i])));
+            alpha[i] = static_cast<float>(static_cast<double>(counts_.missed[i]) /
+                                          static_cast<double>(std::max<uint64_t>(1, counts_.paths[i])));
         }
         return alpha;
     }
@@ -224,7 +232,8 @@ private:
         return mass;
     }
 
-    /// Sorts records into cells; a cell that the density reaches but no record has the nearest record of its stratum, turned.
+    /// Sorts records into cells; a cell that the density reaches but no record has the nearest record of its stratum,
+    /// turned.
     void group_records(Gsdf::Data& data)
     {
         constexpr size_t all = static_cast<size_t>(Gsdf::strata) * Gsdf::cells;
@@ -238,7 +247,8 @@ private:
         const bool weighted = body_.material.kind == MaterialKind::conductor;
         data.first.assign(1, 0);
         for (uint32_t s = 0; s < Gsdf::strata; ++s) {
-            const size_t begin = static_cast<size_t>(s) * Gsdf::cells, lent = static_cast<size_t>(lender_[s]) * Gsdf::cells;
+            const size_t begin = static_cast<size_t>(s) * Gsdf::cells,
+                         lent = static_cast<size_t>(lender_[s]) * Gsdf::cells;
             for (uint32_t c = 0; c < Gsdf::cells; ++c) {
                 for (const Scattered* found : of_cell[lent + c]) {
                     data.records.push_back(found->record);
@@ -256,7 +266,8 @@ private:
         recorded_ = {};
     }
 
-    static const Scattered* nearest(const std::vector<std::vector<const Scattered*>>& of_cell, uint32_t stratum, uint32_t cell)
+    static const Scattered* nearest(const std::vector<std::vector<const Scattered*>>& of_cell, uint32_t stratum,
+                                    uint32_t cell)
     {
         const V3d centre = DirectionGrid::centre(cell);
         const Scattered* best = nullptr;
@@ -282,7 +293,8 @@ private:
         q.density_error = error;
         const auto n = static_cast<double>(std::max<int64_t>(1, counts_.scattered));
         q.mean_cosine = static_cast<double>(counts_.cosines) * 0x1p-30 / n;
-        q.mean_cosine_error = std::sqrt(std::max(0.0, static_cast<double>(counts_.squares) * 0x1p-20 / n - q.mean_cosine * q.mean_cosine) / n);
+        q.mean_cosine_error = std::sqrt(
+            std::max(0.0, static_cast<double>(counts_.squares) * 0x1p-20 / n - q.mean_cosine * q.mean_cosine) / n);
         return q;
     }
 
@@ -292,8 +304,8 @@ private:
     std::string stage_ = "tracing grains";
     Counts counts_;
     std::vector<std::vector<Scattered>> recorded_; // by batch
-    uint64_t done_ = 0;                            // batches
-    std::array<uint32_t, Gsdf::strata> lender_{};  // of each stratum: itself, if it has anything
+    uint64_t done_ = 0; // batches
+    std::array<uint32_t, Gsdf::strata> lender_{}; // of each stratum: itself, if it has anything
 };
 
 } // namespace

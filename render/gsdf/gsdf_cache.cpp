@@ -1,8 +1,8 @@
 #include "render/gsdf/gsdf_cache.h"
 
+#include "base/content_hash.h"
 #include "base/error.h"
 #include "render/gsdf/gsdf_file.h"
-#include "base/content_hash.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,10 @@ std::filesystem::path from_environment(const char* variable)
     return value ? value : "";
 }
 
-std::filesystem::path file_of(uint64_t key, const std::filesystem::path& folder) { return folder / fmt::format("gsdf-{:016x}.bin", key); }
+std::filesystem::path file_of(uint64_t key, const std::filesystem::path& folder)
+{
+    return folder / fmt::format("gsdf-{:016x}.bin", key);
+}
 
 } // namespace
 
@@ -58,15 +61,18 @@ FoundGsdf stored_gsdf(const GsdfSource& source, const GsdfOptions& options, cons
     if (!std::filesystem::exists(found.file, none)) return found;
     try {
         StoredGsdf stored = read_gsdf(found.file);
-        if (stored.tag.key == key) found.gsdf = std::move(stored.gsdf);
-        else found.remark = fmt::format("{} was of another grain and is made again", found.file.string());
+        if (stored.tag.key == key)
+            found.gsdf = std::move(stored.gsdf);
+        else
+            found.remark = fmt::format("{} was of another grain and is made again", found.file.string());
     } catch (const InputError& error) {
         found.remark = fmt::format("{}: {}; it is made again", error.place(), error.found());
     }
     return found;
 }
 
-FoundGsdf find_gsdf(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder, const Progress& progress)
+FoundGsdf find_gsdf(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder,
+                    const Progress& progress)
 {
     FoundGsdf stored = stored_gsdf(source, options, folder);
     if (stored.gsdf) return stored;
@@ -75,7 +81,8 @@ FoundGsdf find_gsdf(const GsdfSource& source, const GsdfOptions& options, const 
     return made;
 }
 
-FoundGsdf make_gsdf(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder, const Progress& progress)
+FoundGsdf make_gsdf(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder,
+                    const Progress& progress)
 {
     const std::shared_ptr<const Exemplar> exemplar = source.exemplar ? source.exemplar() : nullptr;
     FoundGsdf found;

@@ -47,7 +47,8 @@ uint64_t checksum_of(const Header& header, const Gsdf::Data& data)
 void write_gsdf(const std::filesystem::path& file, const Gsdf& gsdf, const GsdfTag& tag)
 {
     const Gsdf::Data& data = gsdf.data();
-    Header header{magic, version, Gsdf::alpha_bins, Gsdf::strata, Gsdf::cells, data.records.size(), data.weights.size(), 0, tag, data.quality};
+    Header header{magic, version, Gsdf::alpha_bins, Gsdf::strata, Gsdf::cells, data.records.size(), data.weights.size(),
+                  0,     tag,     data.quality};
     header.checksum = checksum_of(header, data);
     TableFileWriter writer(file, what);
     writer.add(header);
@@ -60,13 +61,16 @@ StoredGsdf read_gsdf(const std::filesystem::path& file)
     TableFileReader reader(file, what);
     const auto header = reader.read<Header>();
     if (header.magic != magic) throw reader.refuse("something else");
-    if (header.version != version || header.alpha_bins != Gsdf::alpha_bins || header.strata != Gsdf::strata || header.cells != Gsdf::cells) {
+    if (header.version != version || header.alpha_bins != Gsdf::alpha_bins || header.strata != Gsdf::strata ||
+        header.cells != Gsdf::cells) {
         throw reader.refuse("another version");
     }
     constexpr size_t all = static_cast<size_t>(Gsdf::strata) * Gsdf::cells;
     const uint64_t fixed = (Gsdf::alpha_bins + all) * sizeof(float) + (all + 1) * sizeof(uint32_t);
     const bool counts_fit = header.records < (1ull << 32) && (header.weights == 0 || header.weights == header.records);
-    if (!counts_fit || reader.left() != fixed + header.records * sizeof(GsdfRecord) + header.weights * sizeof(Imath::C3f)) throw reader.refuse("a file of the wrong length");
+    if (!counts_fit ||
+        reader.left() != fixed + header.records * sizeof(GsdfRecord) + header.weights * sizeof(Imath::C3f))
+        throw reader.refuse("a file of the wrong length");
 
     Gsdf::Data data;
     data.alpha0.resize(Gsdf::alpha_bins);
@@ -81,7 +85,8 @@ StoredGsdf read_gsdf(const std::filesystem::path& file)
         throw reader.refuse("a damaged file: its records are not in order");
     }
     for (size_t i = 0; i < all; ++i) {
-        if (!(data.density[i] >= 0 && std::isfinite(data.density[i])) || (data.density[i] > 0 && data.first[i] == data.first[i + 1])) {
+        if (!(data.density[i] >= 0 && std::isfinite(data.density[i])) ||
+            (data.density[i] > 0 && data.first[i] == data.first[i + 1])) {
             throw reader.refuse("a damaged file: a direction without a density or without a record");
         }
     }

@@ -9,8 +9,8 @@ namespace scree {
 
 /// What a stored GSDF is of and how well it was wanted.
 struct GsdfTag {
-    uint64_t key = 0;  ///< see gsdf_key
-    double error = 0;  ///< that was asked for; what was reached stands in its quality
+    uint64_t key = 0; ///< see gsdf_key
+    double error = 0; ///< that was asked for; what was reached stands in its quality
 };
 
 /// Writes a GSDF, whole or not at all, under a checksum. Throws InputError where that is not possible.

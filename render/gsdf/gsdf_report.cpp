@@ -34,7 +34,10 @@ nlohmann::json figure_json(const GsdfReport::Figure& figure)
     nlohmann::json forms = nlohmann::json::object();
     for (const FormError& form : figure.errors.forms) forms[form.form] = errors(form);
     forms["hg"]["g"] = figure.errors.hg_g;
-    return {{"file", figure.file}, {"paths", figure.paths}, {"mean_error", forms}, {"noise_floor", errors(figure.errors.noise)}};
+    return {{"file", figure.file},
+            {"paths", figure.paths},
+            {"mean_error", forms},
+            {"noise_floor", errors(figure.errors.noise)}};
 }
 
 nlohmann::json report_json(const GsdfReport& report)
@@ -42,7 +45,8 @@ nlohmann::json report_json(const GsdfReport& report)
     const Gsdf& gsdf = *report.found.gsdf;
     const GsdfQuality& quality = gsdf.data().quality;
     nlohmann::json phase{{"theta_degrees", nlohmann::json::array()}, {"per_steradian", phase_function(gsdf)}};
-    for (uint32_t row = 0; row < DirectionGrid::rows; ++row) phase["theta_degrees"].push_back(180 * (row + 0.5) / DirectionGrid::rows);
+    for (uint32_t row = 0; row < DirectionGrid::rows; ++row)
+        phase["theta_degrees"].push_back(180 * (row + 0.5) / DirectionGrid::rows);
     nlohmann::json alpha0{{"q", nlohmann::json::array()}, {"value", gsdf.data().alpha0}};
     for (uint32_t bin = 0; bin < Gsdf::alpha_bins; ++bin) alpha0["q"].push_back((bin + 0.5) / Gsdf::alpha_bins);
     nlohmann::json json{{"name", report.subject.name},
@@ -72,27 +76,34 @@ nlohmann::json report_json(const GsdfReport& report)
 
 std::string gsdf_table_head()
 {
-    return fmt::format("{:<17}  {:<6}  {:>7}  {:>8}  {:>7}  {:>5}  {:>7}  {:>8}  {:>7}  {:>8}  {:>5}  {:>7}  {:>5}  {}", "grain", "from", "seconds", "paths",
-                       "error %", "asked", "alpha0", "cosine", "+-", "records'", "lost", "records", "MB", "file");
+    return fmt::format("{:<17}  {:<6}  {:>7}  {:>8}  {:>7}  {:>5}  {:>7}  {:>8}  {:>7}  {:>8}  {:>5}  {:>7}  {:>5}  {}",
+                       "grain", "from", "seconds", "paths", "error %", "asked", "alpha0", "cosine", "+-", "records'",
+                       "lost", "records", "MB", "file");
 }
 
 std::string gsdf_table_line(const GsdfReport& report)
 {
     const Gsdf& gsdf = *report.found.gsdf;
     const GsdfQuality& quality = gsdf.data().quality;
-    return fmt::format("{:<17}  {:<6}  {:>7.2f}  {:>8.3g}  {:>7}  {:>5}  {:>7.4f}  {:>8.5f}  {:>7.5f}  {:>8.5f}  {:>5}  {:>7}  {:>5.1f}  {}", report.subject.name,
-                       report.found.computed ? "traced" : "cache", report.seconds, static_cast<double>(quality.paths), percent(quality.density_error),
-                       percent(report.wanted), gsdf.mean_alpha0(), quality.mean_cosine, quality.mean_cosine_error, gsdf.mean_cosine(), quality.lost,
-                       gsdf.data().records.size(), 1e-6 * static_cast<double>(gsdf.bytes()),
+    return fmt::format("{:<17}  {:<6}  {:>7.2f}  {:>8.3g}  {:>7}  {:>5}  {:>7.4f}  {:>8.5f}  {:>7.5f}  {:>8.5f}  {:>5} "
+                       " {:>7}  {:>5.1f}  {}",
+                       report.subject.name, report.found.computed ? "traced" : "cache", report.seconds,
+                       static_cast<double>(quality.paths), percent(quality.density_error), percent(report.wanted),
+                       gsdf.mean_alpha0(), quality.mean_cosine, quality.mean_cosine_error, gsdf.mean_cosine(),
+                       quality.lost, gsdf.data().records.size(), 1e-6 * static_cast<double>(gsdf.bytes()),
                        report.found.file.empty() ? "not kept" : report.found.file.string());
 }
 
 std::vector<std::string> form_table(const MapErrors& errors, const std::string& grain)
 {
     std::vector<std::string> lines;
-    lines.push_back(fmt::format("{:<24}  {:>21}  {:>27}", "mean error %, " + grain, "p(omega_i | beta_o)", "p(omega_i, gamma_o | beta_o)"));
-    for (const FormError& form : errors.forms) lines.push_back(fmt::format("{:<24}  {:>21}  {:>27}", form_name(form.form), percent(form.direction), percent(form.full)));
-    lines.push_back(fmt::format("{:<24}  {:>21}  {:>27}", "noise floor", percent(errors.noise.direction), percent(errors.noise.full)));
+    lines.push_back(fmt::format("{:<24}  {:>21}  {:>27}", "mean error %, " + grain, "p(omega_i | beta_o)",
+                                "p(omega_i, gamma_o | beta_o)"));
+    for (const FormError& form : errors.forms)
+        lines.push_back(
+            fmt::format("{:<24}  {:>21}  {:>27}", form_name(form.form), percent(form.direction), percent(form.full)));
+    lines.push_back(fmt::format("{:<24}  {:>21}  {:>27}", "noise floor", percent(errors.noise.direction),
+                                percent(errors.noise.full)));
     return lines;
 }
 

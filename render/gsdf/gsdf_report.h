@@ -15,7 +15,7 @@ struct GsdfReport {
     GsdfSubject subject;
     FoundGsdf found;
     double seconds = 0; ///< of finding it, this time
-    double wanted = 0;  ///< error
+    double wanted = 0; ///< error
     /// Of the figure, if one was drawn.
     struct Figure {
         std::string file;
@@ -35,8 +35,8 @@ std::vector<std::string> form_table(const MapErrors& errors, const std::string& 
 /// Everything in numbers, with alpha0 over q and the phase function over the polar angle: an array, an object a grain.
 std::string gsdf_json(const std::vector<GsdfReport>& reports);
 
-/// Scattering of light from afar per solid angle by the polar angle from straight on, in DirectionGrid::rows bins of equal
-/// width, given that it is scattered: a mean of 1 / (4 pi).
+/// Scattering of light from afar per solid angle by the polar angle from straight on, in DirectionGrid::rows bins of
+/// equal width, given that it is scattered: a mean of 1 / (4 pi).
 std::vector<double> phase_function(const Gsdf& gsdf);
 
 } // namespace scree

@@ -32,7 +32,9 @@ Color rgb(const std::string& text, const Color& absent, const std::string& optio
         numbers.push_back(static_cast<float>(number.value_or(0)));
     }
     if (numbers.size() == 1) return Color(numbers[0]);
-    if (numbers.size() != 3) throw InputError(option, in_quotes(text), "a number from 0 on, or three as in 0.2,0.9,1.1 for red, green and blue");
+    if (numbers.size() != 3)
+        throw InputError(option, in_quotes(text),
+                         "a number from 0 on, or three as in 0.2,0.9,1.1 for red, green and blue");
     return {numbers[0], numbers[1], numbers[2]};
 }
 
@@ -40,7 +42,9 @@ void override_material(const SubjectOptions& options, Material& material, const 
 {
     if (options.material) {
         const auto kind = std::ranges::find(kinds, *options.material);
-        if (kind == kinds.end()) throw InputError("--material", in_quotes(*options.material), join_words(kinds), did_you_mean(*options.material, kinds));
+        if (kind == kinds.end())
+            throw InputError("--material", in_quotes(*options.material), join_words(kinds),
+                             did_you_mean(*options.material, kinds));
         const auto wanted = static_cast<MaterialKind>(kind - kinds.begin());
         if (wanted != material.kind) {
             material = Material{};
@@ -48,11 +52,15 @@ void override_material(const SubjectOptions& options, Material& material, const 
         }
     }
     const auto needs = [&](bool given, const std::string& option, bool applies, const std::string& what) {
-        if (given && !applies) throw InputError(option, fmt::format("'{}', which is a {}", name, kinds[static_cast<size_t>(material.kind)]), what, "--material says otherwise");
+        if (given && !applies)
+            throw InputError(option,
+                             fmt::format("'{}', which is a {}", name, kinds[static_cast<size_t>(material.kind)]), what,
+                             "--material says otherwise");
     };
     const bool conductor = material.kind == MaterialKind::conductor;
     needs(options.ior.has_value(), "--ior", material.kind == MaterialKind::dielectric, "a dielectric");
-    needs(options.roughness.has_value(), "--roughness", material.kind != MaterialKind::lambert, "a dielectric or a conductor");
+    needs(options.roughness.has_value(), "--roughness", material.kind != MaterialKind::lambert,
+          "a dielectric or a conductor");
     needs(!options.eta.empty(), "--eta", conductor, "a conductor");
     needs(!options.k.empty(), "--k", conductor, "a conductor");
     if (options.ior) material.ior = *options.ior;
@@ -83,10 +91,12 @@ GsdfSubject subject_of(const std::string& word, const std::string& place)
 bool is_mesh_file_name(const std::string& word)
 {
     const std::string extension = lower_case(std::filesystem::path(word).extension().string());
-    return extension == ".obj" || extension == ".ply" || extension == ".stl" || extension == ".off" || word.find('/') != std::string::npos;
+    return extension == ".obj" || extension == ".ply" || extension == ".stl" || extension == ".off" ||
+           word.find('/') != std::string::npos;
 }
 
-std::vector<GsdfSubject> gsdf_subjects(const std::vector<std::string>& words, const SubjectOptions& options, const std::string& place)
+std::vector<GsdfSubject> gsdf_subjects(const std::vector<std::string>& words, const SubjectOptions& options,
+                                       const std::string& place)
 {
     std::vector<GsdfSubject> subjects;
     for (const std::string& word : words) {
@@ -105,7 +115,8 @@ std::vector<GsdfSubject> gsdf_subjects(const std::vector<std::string>& words, co
         if (options.seed) subject.shape.options.seed = *options.seed;
     }
     if (!of_library && (options.triangles || options.seed)) {
-        throw InputError(options.triangles ? "--triangles" : "--seed", "no grain of the library", "one whose shape is made by it", "a mesh file is taken as it is");
+        throw InputError(options.triangles ? "--triangles" : "--seed", "no grain of the library",
+                         "one whose shape is made by it", "a mesh file is taken as it is");
     }
     return subjects;
 }

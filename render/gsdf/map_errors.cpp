@@ -44,7 +44,8 @@ public:
             for (int i = 0; i < impacts * steps * steps; ++i) {
                 const double q = low + (i % impacts + 0.5) / impacts * width;
                 const double beta = pi * (d / Map::azimuths + (i / impacts % steps + 0.5) / steps) / Map::polar;
-                const double delta = 2 * pi * (d % Map::azimuths + (i / impacts / steps + 0.5) / steps - 0.5) / Map::azimuths;
+                const double delta =
+                    2 * pi * (d % Map::azimuths + (i / impacts / steps + 0.5) / steps - 0.5) / Map::azimuths;
                 cosine_.push_back(std::sqrt(q) * std::sin(beta) * std::cos(delta) + std::sqrt(1 - q) * std::cos(beta));
                 weight_.push_back(std::sin(beta));
             }
@@ -104,8 +105,10 @@ FormError compare_maps(const std::string& form, const ScatteringMap& map, const 
     FormError error{form, 0, 0};
     for (uint32_t row = 0; row < Map::rows; ++row) {
         double direction = 0, full = 0;
-        for (size_t i = size_t{row} * Map::directions; i < (size_t{row} + 1) * Map::directions; ++i) direction += std::abs(a[i] - b[i]);
-        for (size_t i = Map::index(row, 0, 0); i < Map::index(row + 1, 0, 0); ++i) full += std::abs(map.mass[i] - truth.mass[i]);
+        for (size_t i = size_t{row} * Map::directions; i < (size_t{row} + 1) * Map::directions; ++i)
+            direction += std::abs(a[i] - b[i]);
+        for (size_t i = Map::index(row, 0, 0); i < Map::index(row + 1, 0, 0); ++i)
+            full += std::abs(map.mass[i] - truth.mass[i]);
         error.direction += truth.row_mass[row] * direction;
         error.full += truth.row_mass[row] * full;
     }
@@ -126,8 +129,8 @@ MapErrors map_errors(const ScatteringMap& gsdf, const BruteForceMaps& truth)
         for (uint32_t d = 0; d < Map::directions; ++d) sphere[d] = Map::solid_angle_share(d);
         set_product(isotropic, row, Row(Map::turns, 1.0 / Map::turns), sphere);
     });
-    errors.forms = {compare_maps("gsdf", gsdf, truth.both), compare_maps("factored", factored, truth.both), compare_maps("hg", hg, truth.both),
-                    compare_maps("isotropic", isotropic, truth.both)};
+    errors.forms = {compare_maps("gsdf", gsdf, truth.both), compare_maps("factored", factored, truth.both),
+                    compare_maps("hg", hg, truth.both), compare_maps("isotropic", isotropic, truth.both)};
     // The halves are apart by sqrt(2) of the noise of each, which is sqrt(2) of that of both together.
     const FormError apart = compare_maps("noise", truth.halves[0], truth.halves[1]);
     errors.noise = {"noise", 0.5 * apart.direction, 0.5 * apart.full};

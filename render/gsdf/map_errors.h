@@ -12,16 +12,16 @@ namespace scree {
 struct FormError {
     std::string form;
     double direction = 0; ///< of p(omega_i | beta_o)
-    double full = 0;      ///< of p(omega_i, gamma_o | beta_o), see ScatteringMap
+    double full = 0; ///< of p(omega_i, gamma_o | beta_o), see ScatteringMap
 };
 
 /// The error of the GSDF beside those of the best of simpler forms.
 struct MapErrors {
-    /// gsdf; then factored: what leaves where, times what leaves where to, both tabulated; hg: Henyey and Greenstein's form
-    /// (1941) about omega_o with the g of least error for each beta_o, leaving where as measured; isotropic: every direction
-    /// alike, from anywhere on the sphere.
+    /// gsdf; then factored: what leaves where, times what leaves where to, both tabulated; hg: Henyey and Greenstein's
+    /// form (1941) about omega_o with the g of least error for each beta_o, leaving where as measured; isotropic: every
+    /// direction alike, from anywhere on the sphere.
     std::vector<FormError> forms;
-    FormError noise;                               ///< what the truth itself would show, as it is known from finitely many paths
+    FormError noise; ///< what the truth itself would show, as it is known from finitely many paths
     std::array<double, ScatteringMap::rows> hg_g{}; ///< that was fitted
 };
 

@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "base/hash.h"
-#include "render/embree/embree_device.h"
 #include "base/warp.h"
+#include "render/embree/embree_device.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -19,10 +19,14 @@ using Map = ScatteringMap;
 using Counts = std::vector<uint64_t>; // rows * row_cells
 
 constexpr uint32_t batch_size = 3 * 4096;
-constexpr double near_entry = 0.3; // where strata of impacts, the widest of 0.25 in cos beta_o, move the exit across the entry
+constexpr double near_entry =
+    0.3; // where strata of impacts, the widest of 0.25 in cos beta_o, move the exit across the entry
 
 /// The azimuth of v about n_o from the plane of incidence, in -pi..pi; see Encounter.
-double azimuth(const V3d& v, double sin_beta, double cos_beta) { return std::atan2(v.y, cos_beta * v.x + sin_beta * v.z); }
+double azimuth(const V3d& v, double sin_beta, double cos_beta)
+{
+    return std::atan2(v.y, cos_beta * v.x + sin_beta * v.z);
+}
 
 /// Of `bins` equal ones, the first centred on 0.
 uint32_t bin(double angle, uint32_t bins)
@@ -83,9 +87,11 @@ Map map_of(const Tally& tally, const std::vector<size_t>& sets)
         for (const size_t set : sets) {
             paths += static_cast<double>(tally.paths[set][row]);
             scattered += static_cast<double>(tally.scattered[set][row]);
-            for (size_t i = Map::index(row, 0, 0); i < Map::index(row + 1, 0, 0); ++i) map.mass[i] += static_cast<double>(tally.sets[set][i]);
+            for (size_t i = Map::index(row, 0, 0); i < Map::index(row + 1, 0, 0); ++i)
+                map.mass[i] += static_cast<double>(tally.sets[set][i]);
         }
-        for (size_t i = Map::index(row, 0, 0); i < Map::index(row + 1, 0, 0) && scattered > 0; ++i) map.mass[i] /= scattered;
+        for (size_t i = Map::index(row, 0, 0); i < Map::index(row + 1, 0, 0) && scattered > 0; ++i)
+            map.mass[i] /= scattered;
         if (paths > 0) map.row_mass[row] = scattered / paths * (Map::highest_q(row) - Map::lowest_q(row));
         total += map.row_mass[row];
     }
@@ -106,7 +112,8 @@ void add_impact(const Gsdf& gsdf, double q, double weight, std::span<double> row
             if (!(mass > 0)) continue;
             const auto records = gsdf.records(stratum, c);
             const double each = share * mass / static_cast<double>(records.size());
-            for (const GsdfRecord& record : records) row[Map::cell_of(q, record.point.unpack(), record.direction.unpack())] += each;
+            for (const GsdfRecord& record : records)
+                row[Map::cell_of(q, record.point.unpack(), record.direction.unpack())] += each;
         }
     }
 }
@@ -147,7 +154,8 @@ std::vector<double> ScatteringMap::direction_mass() const
     std::vector<double> sums(static_cast<size_t>(rows) * directions);
     for (uint32_t row = 0; row < rows; ++row) {
         for (uint32_t turn = 0; turn < turns; ++turn) {
-            for (uint32_t d = 0; d < directions; ++d) sums[static_cast<size_t>(row) * directions + d] += mass[index(row, turn, d)];
+            for (uint32_t d = 0; d < directions; ++d)
+                sums[static_cast<size_t>(row) * directions + d] += mass[index(row, turn, d)];
         }
     }
     return sums;

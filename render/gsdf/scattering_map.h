@@ -9,26 +9,30 @@
 
 namespace scree {
 
-/// How a grain, averaged over its rotations, scatters what meets it: the joint distribution of where light leaves the bounding
-/// sphere and where to, p(omega_i, gamma_o | beta_o), in cells.
+/// How a grain, averaged over its rotations, scatters what meets it: the joint distribution of where light leaves the
+/// bounding sphere and where to, p(omega_i, gamma_o | beta_o), in cells.
 ///
-/// This is our reading of Figures 5 to 32 of the supplement of Müller et al. 2016. n_o is the normal at the entry x_o, looking
-/// inwards; omega_o goes into the sphere, omega_i out of it at x_i. Azimuths about n_o count from the plane of x_o, the centre
-/// and x_i: gamma_o is omega_o's and gamma_i is omega_i's. Where x_i is within 0.3 radii of x_o, that plane says nothing and is
-/// replaced by the plane of incidence. A map sees the correlation between where light leaves and where to, which a product of
-/// the two distributions loses.
+/// This is our reading of Figures 5 to 32 of the supplement of Müller et al. 2016. n_o is the normal at the entry x_o,
+/// looking inwards; omega_o goes into the sphere, omega_i out of it at x_i. Azimuths about n_o count from the plane of
+/// x_o, the centre and x_i: gamma_o is omega_o's and gamma_i is omega_i's. Where x_i is within 0.3 radii of x_o, that
+/// plane says nothing and is replaced by the plane of incidence. A map sees the correlation between where light leaves
+/// and where to, which a product of the two distributions loses.
 ///
 /// Cells are equally wide in cos beta_o, gamma_o, beta_i (0 along n_o, the first half is front-facing), and
-/// delta = gamma_i - gamma_o, the azimuth of omega_i from the plane of incidence. Azimuths of 0 and pi are in the middle of
-/// their cells: spheres scatter nowhere else.
+/// delta = gamma_i - gamma_o, the azimuth of omega_i from the plane of incidence. Azimuths of 0 and pi are in the
+/// middle of their cells: spheres scatter nowhere else.
 struct ScatteringMap {
     static constexpr uint32_t rows = 8, turns = 8, polar = 16, azimuths = 24;
     static constexpr uint32_t directions = polar * azimuths, row_cells = turns * directions;
 
-    std::vector<double> mass = std::vector<double>(rows * row_cells); ///< of cells, given that light is scattered: every row sums to 1
-    std::array<double, rows> row_mass{};                              ///< the share of rows in all that is scattered of light from afar
+    std::vector<double> mass =
+        std::vector<double>(rows * row_cells); ///< of cells, given that light is scattered: every row sums to 1
+    std::array<double, rows> row_mass{}; ///< the share of rows in all that is scattered of light from afar
 
-    static size_t index(uint32_t row, uint32_t turn, uint32_t direction) { return (static_cast<size_t>(row) * turns + turn) * directions + direction; }
+    static size_t index(uint32_t row, uint32_t turn, uint32_t direction)
+    {
+        return (static_cast<size_t>(row) * turns + turn) * directions + direction;
+    }
     /// The bounds of a row in q = sin^2 beta_o.
     static double lowest_q(uint32_t row);
     static double highest_q(uint32_t row);
@@ -44,8 +48,8 @@ struct ScatteringMap {
 /// Maps by brute force: walks through the grain, in three independent sets of paths / 3.
 struct BruteForceMaps {
     std::array<ScatteringMap, 2> halves; ///< to compare with
-    ScatteringMap both;                  ///< of the halves
-    ScatteringMap other;                 ///< to fit simpler forms to
+    ScatteringMap both; ///< of the halves
+    ScatteringMap other; ///< to fit simpler forms to
     uint64_t paths = 0;
 };
 

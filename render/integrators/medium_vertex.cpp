@@ -1,8 +1,8 @@
 // Volumetric path tracing: a path among media, and what it does where one scatters it.
 
+#include "base/warp.h"
 #include "render/integrators/path.h"
 #include "render/stf/medium_shells.h"
-#include "base/warp.h"
 
 #include <bit>
 
@@ -39,7 +39,8 @@ double Path::clear()
     double least = 0;
     if (std::has_single_bit(regions_)) {
         const MediumRegion& region = world_.regions[static_cast<size_t>(std::countr_zero(regions_))];
-        if (region.shells) least = region.shells->least_length();
+        if (region.shells)
+            least = region.shells->least_length();
         else if (region.homogeneous) {
             const V3d& sigma_t = region.homogeneous->sigma_t();
             least = 1 / std::max({sigma_t.x, sigma_t.y, sigma_t.z});
@@ -50,7 +51,8 @@ double Path::clear()
 
 MediumEvent Path::medium_event(double t0, double t1)
 {
-    // The nearest of all: media add up. One whose sigma_t depends on the channel comes last, to be walked no farther than it counts.
+    // The nearest of all: media add up. One whose sigma_t depends on the channel comes last, to be walked no farther
+    // than it counts.
     MediumEvent first;
     for (const bool achromatic : {true, false}) {
         for_each_region(regions_, [&](uint32_t number) {
@@ -67,7 +69,8 @@ MediumEvent Path::medium_event(double t0, double t1)
 Color Path::media_transmittance(RegionSet regions, const V3d& o, const V3d& d, double t0, double t1)
 {
     Color passed(1);
-    for_each_region(regions, [&](uint32_t region) { passed *= world_.regions[region].transmittance(o, d, t0, t1, sampler_); });
+    for_each_region(regions,
+                    [&](uint32_t region) { passed *= world_.regions[region].transmittance(o, d, t0, t1, sampler_); });
     return passed;
 }
 
@@ -76,7 +79,8 @@ bool Path::step_through_media(Hit& met)
     if (const std::optional<bool> alive = step_through_shell(met)) return *alive;
     if (regions_ != 0) { // far from everything there is nothing to meet but the medium
         if (const double until = clear(); until > passed_) {
-            if (const MediumEvent event = medium_event(passed_, until); event.scattered) return handle_medium(event, met);
+            if (const MediumEvent event = medium_event(passed_, until); event.scattered)
+                return handle_medium(event, met);
             passed_ = until;
         }
     }
@@ -94,7 +98,8 @@ bool Path::step_through_media(Hit& met)
     if (!outside && regions_ == 0) ++result_.leaks; // lost through the surface of a medium
     if (!outside || regions_ != 0) next = distance();
     if (regions_ != 0) {
-        if (const MediumEvent event = medium_event(passed_, std::min(crossing.t, next)); event.scattered) return handle_medium(event, met);
+        if (const MediumEvent event = medium_event(passed_, std::min(crossing.t, next)); event.scattered)
+            return handle_medium(event, met);
     }
     if (crosses && crossing.t <= next) {
         met.place.kind = HitKind::medium;
@@ -165,9 +170,11 @@ bool Path::handle_medium(const MediumEvent& event, Hit& met)
         double reached = 1;
         if (std::has_single_bit(regions_)) {
             const MediumRegion& region = world_.regions[static_cast<size_t>(std::countr_zero(regions_))];
-            if (region.homogeneous && region.is_achromatic()) reached = std::exp(-region.homogeneous->sigma_t().x * clear());
+            if (region.homogeneous && region.is_achromatic())
+                reached = std::exp(-region.homogeneous->sigma_t().x * clear());
         }
-        if (reached >= 1 || sampler_.next() < reached) add_phase_light(o_, d_, event.phase, Color(static_cast<Real>(1 / reached)));
+        if (reached >= 1 || sampler_.next() < reached)
+            add_phase_light(o_, d_, event.phase, Color(static_cast<Real>(1 / reached)));
     }
 
     const double u = sampler_.next(), v = sampler_.next(), cosine = event.phase.sample(u);
@@ -208,10 +215,12 @@ Color Path::passing_media(V3d o, const V3d& d, double distance, Place from, uint
         }
         const GrainDetail grains = detail(regions);
         if (crosses) regions = RegionTracer::after(regions, crossing);
-        // One look as far as the grains are taken in one way: nothing that coincides with a medium's surface is passed by.
+        // One look as far as the grains are taken in one way: nothing that coincides with a medium's surface is passed
+        // by.
         if (!crosses || detail(regions) != grains) {
             ++result_.shadow_rays;
-            const double visibility = tracer_.visibility(o + looked * d, d, end - looked, looked > 0 ? Place{} : from, light, grains);
+            const double visibility =
+                tracer_.visibility(o + looked * d, d, end - looked, looked > 0 ? Place{} : from, light, grains);
             if (visibility == 0) return Color(0);
             passed *= static_cast<Real>(visibility);
             looked = end;
@@ -223,7 +232,8 @@ Color Path::passing_media(V3d o, const V3d& d, double distance, Place from, uint
         if (grains == GrainDetail::none && detail(regions) != GrainDetail::none) { // as in handle_crossing
             o = void_point(o + t * d, d, crossing);
             distance = distance == infinite ? infinite : world_.lights.meet(light, o, d);
-            if (!(distance > 0) || (world_.lights.lights()[light].is_infinite() != (distance == infinite))) return Color(0);
+            if (!(distance > 0) || (world_.lights.lights()[light].is_infinite() != (distance == infinite)))
+                return Color(0);
             t = looked = 0;
             from = {};
         }

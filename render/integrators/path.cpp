@@ -62,7 +62,8 @@ bool Path::handle(const Hit& hit)
     const bool unresolved = std::exchange(unresolved_, false);
     if (unresolved) explicit_left_ = 0;
     if (hit.place.kind == HitKind::none) return handle_miss();
-    const bool is_proxy = hit.place.kind == HitKind::grain && hit.place.triangle == no_triangle && !is_inside() && detail() == GrainDetail::proxy;
+    const bool is_proxy = hit.place.kind == HitKind::grain && hit.place.triangle == no_triangle && !is_inside() &&
+                          detail() == GrainDetail::proxy;
     if (is_proxy && !unresolved && misses_proxy(hit)) {
         beyond_ = passed_ = hit.t; // on along the same ray
         return true;
@@ -118,8 +119,10 @@ bool Path::handle_interface(const Hit& hit)
     if (!survives()) return false;
 
     if (material.transmits()) {
-        if (on_grain) grain_ = sample.wi.z < 0 ? hit.place : Place{};
-        else surrounding_ = sample.wi.z < 0 ? &material : nullptr;
+        if (on_grain)
+            grain_ = sample.wi.z < 0 ? hit.place : Place{};
+        else
+            surrounding_ = sample.wi.z < 0 ? &material : nullptr;
     }
     start_ray(hit.point, frame.to_world(sample.wi).normalized(), hit.place);
     last_ = {material.is_delta(), sample.pdf, o_};
@@ -130,7 +133,8 @@ bool Path::survives()
 {
     const double w = max_component(weight_ * spectral_.weight());
     if (w <= 0) return false;
-    constexpr double worth_ending = 1 - 0x1p-5; // above, random numbers in steps of 2^-32 would lose what next to no absorption takes
+    constexpr double worth_ending =
+        1 - 0x1p-5; // above, random numbers in steps of 2^-32 would lose what next to no absorption takes
     if (w >= worth_ending || depth_ < 3) return true;
     if (sampler_.next() >= w) return false;
     weight_ *= 1 / w;
@@ -170,7 +174,8 @@ void Path::add_direct_light(const Hit& hit, const Material& material, const Fram
     if (!is_black(passed)) add_light_sample(light, light.distance, f, pdf_bsdf(material, wo, wi), passed);
 }
 
-void Path::add_light_sample(const LightSample& light, double distance, const Color& f, double scatter_pdf, const Color& passed)
+void Path::add_light_sample(const LightSample& light, double distance, const Color& f, double scatter_pdf,
+                            const Color& passed)
 {
     double w = 1;
     if (!light.delta && options_.direct_light == DirectLight::both) w *= mis_weight(light.pdf, scatter_pdf);
@@ -214,8 +219,8 @@ void Path::add_light(const Hit& hit)
     add(world_.lights.emitted(light) * static_cast<Real>(found_weight(pdf)));
 }
 
-PathResult trace_path(const World& world, const Tracer& tracer, V3d o, V3d d, Sampler& sampler, const PathOptions& options,
-                      std::vector<PathVertex>* trail)
+PathResult trace_path(const World& world, const Tracer& tracer, V3d o, V3d d, Sampler& sampler,
+                      const PathOptions& options, std::vector<PathVertex>* trail)
 {
     return Path(world, tracer, sampler, options).run(o, d, trail);
 }

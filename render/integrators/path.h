@@ -17,7 +17,8 @@ inline double mis_weight(double p, double other) { return p * p / (p * p + other
 class Path {
 public:
     Path(const World& world, const Tracer& tracer, Sampler& sampler, const PathOptions& options)
-        : world_(world), tracer_(tracer), sampler_(sampler), options_(options), media_(tracer.regions()), explicit_left_(options.explicit_grains)
+        : world_(world), tracer_(tracer), sampler_(sampler), options_(options), media_(tracer.regions()),
+          explicit_left_(options.explicit_grains)
     {
     }
 
@@ -28,7 +29,7 @@ private:
     struct Scattering {
         bool specular = true; ///< it (or the camera) could not have sampled lights
         double pdf = 0;
-        V3d seen_from{0};     ///< where lights were sampled from
+        V3d seen_from{0}; ///< where lights were sampled from
         bool elsewhere = false; ///< the path did not go on from there: lights are to be met again from seen_from
     };
 
@@ -41,7 +42,10 @@ private:
     bool is_inside() const { return grain_.kind == HitKind::grain; }
     GrainDetail detail() const { return explicit_left_ > 0 ? GrainDetail::as_is : GrainDetail::proxy; }
     /// The same within the regions: there may be a medium in place of the grains.
-    GrainDetail detail(RegionSet regions) const { return media_ && (regions & media_->instead_of_grains()) != 0 ? GrainDetail::none : detail(); }
+    GrainDetail detail(RegionSet regions) const
+    {
+        return media_ && (regions & media_->instead_of_grains()) != 0 ? GrainDetail::none : detail();
+    }
     const Material& material_of(const Place& grain) const { return world_.types[grain.type].material; }
     static Weight transmittance(const Material& medium, double length);
     void attenuate(const Material* medium, double length)
@@ -68,7 +72,8 @@ private:
     double clear();
 
     // Through shells (shell_vertex.cpp).
-    /// Goes to the surface of the largest shell that fits around the path's place; whether the path goes on, or nothing where none fits.
+    /// Goes to the surface of the largest shell that fits around the path's place; whether the path goes on, or nothing
+    /// where none fits.
     std::optional<bool> step_through_shell(Hit& met);
     bool diffuse_through(const FittingShell& shell, Hit& met);
     /// Leaves a place by the cosine to the normal; light_weight: of light sampled there, 0 for none.
@@ -112,8 +117,10 @@ private:
 
     void add_direct_light(const Hit& hit, const Material& material, const Frame& frame, const V3d& wo);
     void add_proxy_light(const Hit& hit, const Encounter& encounter, uint32_t stratum);
-    /// Adds what a light's sample brings over `distance`, scattered by f (per solid angle) and weighed against scatter_pdf.
-    void add_light_sample(const LightSample& light, double distance, const Color& f, double scatter_pdf, const Color& passed);
+    /// Adds what a light's sample brings over `distance`, scattered by f (per solid angle) and weighed against
+    /// scatter_pdf.
+    void add_light_sample(const LightSample& light, double distance, const Color& f, double scatter_pdf,
+                          const Color& passed);
     /// Weight of light that scattering found, against the chance that sampling the light had of it.
     double found_weight(double light_pdf) const;
     double found_pdf(uint32_t light, double distance) const;
@@ -128,23 +135,23 @@ private:
 
     V3d o_, d_;
     Place from_;
-    Place grain_;              // that the path is inside of
+    Place grain_; // that the path is inside of
     uint64_t last_grain_ = std::numeric_limits<uint64_t>::max(); // the last met as it is
-    uint32_t explicit_left_;   // grains that may still be met as they are
+    uint32_t explicit_left_; // grains that may still be met as they are
     const Material* surrounding_ = nullptr; // of the dielectric surface the path is inside of, outside grains
     Weight light_{0};
     Weight weight_{1};
     Scattering last_;
-    RegionSet regions_ = 0;    // that the path is in
-    Crossing crossing_;        // the last on this ray, if crossed_
+    RegionSet regions_ = 0; // that the path is in
+    Crossing crossing_; // the last on this ray, if crossed_
     bool crossed_ = false;
-    double clear_ = -1;        // around the ray's start nothing but media is nearer; below 0: not asked yet
-    double passed_ = 0;        // along the ray: up to there media and their surfaces are behind
-    double moved_ = 0;         // how far the camera's ray came before its start was moved
+    double clear_ = -1; // around the ray's start nothing but media is nearer; below 0: not asked yet
+    double passed_ = 0; // along the ray: up to there media and their surfaces are behind
+    double moved_ = 0; // how far the camera's ray came before its start was moved
     SpectralState spectral_;
     bool is_spectral_ = false; // some medium's sigma_t depends on the channel
-    double beyond_ = 0;        // along the ray: where the last of the proxies was met that it missed
-    bool unresolved_ = false;  // what look() found is a proxy, met for certain
+    double beyond_ = 0; // along the ray: where the last of the proxies was met that it missed
+    bool unresolved_ = false; // what look() found is a proxy, met for certain
     uint32_t depth_ = 0;
     uint64_t steps_ = 0;
     PathResult result_;

@@ -1,6 +1,6 @@
-// Proxy path tracing (Müller et al. 2016, algorithm 1): a grain's bounding sphere stands for the grain averaged over rotations.
-// A ray that misses the grain simply goes on, and meets what else is in the sphere (the paper moves it to the far side, by
-// 2 (w_i . w_o) w_o in print, which should be the chord 2 (n_o . w_o) w_o).
+// Proxy path tracing (Müller et al. 2016, algorithm 1): a grain's bounding sphere stands for the grain averaged over
+// rotations. A ray that misses the grain simply goes on, and meets what else is in the sphere (the paper moves it to
+// the far side, by 2 (w_i . w_o) w_o in print, which should be the chord 2 (n_o . w_o) w_o).
 
 #include "render/integrators/path.h"
 
@@ -33,7 +33,8 @@ bool Path::handle_proxy(const Hit& hit)
     if (!result_.first.hit && depth_ == 1) note_first(hit, type.material);
 
     const uint32_t stratum = Gsdf::stratum(encounter.q, sampler_.next());
-    if (world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only) add_proxy_light(hit, encounter, stratum);
+    if (world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only)
+        add_proxy_light(hit, encounter, stratum);
 
     const uint32_t cell = gsdf.sample_cell(stratum, sampler_.next());
     const uint32_t number = gsdf.pick(stratum, cell, sampler_.next());
@@ -78,7 +79,8 @@ void Path::add_proxy_light(const Hit& hit, const Encounter& encounter, uint32_t 
         distance = world_.lights.meet(light.light, exit, light.direction);
         if (!std::isfinite(distance)) return;
     }
-    if (surrounding_) kept *= transmittance(*surrounding_, length_outside(hit.point, exit, gsdf.record(number), sphere.radius));
+    if (surrounding_)
+        kept *= transmittance(*surrounding_, length_outside(hit.point, exit, gsdf.record(number), sphere.radius));
     const RegionSet regions = media_ ? media_->after(regions_, hit.point, exit) : 0;
     const Color passed = passing(exit, light.direction, distance, hit.place, light.light, regions);
     if (is_black(passed) || tracer_.surface_between(hit.point, exit).place.kind == HitKind::surface) return;

@@ -1,8 +1,9 @@
-// Shell tracing (Müller et al. 2016, algorithm 2): a path goes from the centre of a ball of a medium to its surface in one step.
+// Shell tracing (Müller et al. 2016, algorithm 2): a path goes from the centre of a ball of a medium to its surface in
+// one step.
 
+#include "base/warp.h"
 #include "render/integrators/path.h"
 #include "render/stf/medium_shells.h"
-#include "base/warp.h"
 
 #include <bit>
 
@@ -10,7 +11,8 @@ namespace scree {
 
 std::optional<bool> Path::step_through_shell(Hit& met)
 {
-    if (!std::has_single_bit(regions_) || passed_ > 0 || (surrounding_ && !is_black(surrounding_->absorption))) return std::nullopt;
+    if (!std::has_single_bit(regions_) || passed_ > 0 || (surrounding_ && !is_black(surrounding_->absorption)))
+        return std::nullopt;
     const MediumRegion& region = world_.regions[static_cast<size_t>(std::countr_zero(regions_))];
     const MediumShells* shells = region.shells.get();
     if (!shells) return std::nullopt;
@@ -38,12 +40,15 @@ std::optional<bool> Path::step_through_shell(Hit& met)
     const bool is_full = shells->form() == StfForm::full;
     const bool samples_lights = world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only;
     // What reaches the shell from outside of the clear ball at all.
-    const double beyond = clear - shell.length, reached = region.homogeneous ? std::exp(-shell.sigma_t * beyond) : light_reaching(beyond, shell.sigma_t);
+    const double beyond = clear - shell.length, reached = region.homogeneous ? std::exp(-shell.sigma_t * beyond)
+                                                                             : light_reaching(beyond, shell.sigma_t);
     const bool lit = samples_lights && (reached >= 1 || sampler_.next() < reached);
     const double scale = shell.length / shell.radius; // of a mean free path
     if (lit) {
-        if (is_full) add_event_light(shell, scale, 1 / reached);
-        else add_single_light(shell, 1 / reached);
+        if (is_full)
+            add_event_light(shell, scale, 1 / reached);
+        else
+            add_single_light(shell, 1 / reached);
     }
 
     const ShellFrame frame(d_, sampler_.next());
@@ -67,7 +72,8 @@ bool Path::diffuse_through(const FittingShell& shell, Hit& met)
     const double u = sampler_.next(), v = sampler_.next();
     const V3d normal = sample_sphere(u, v);
     const auto left = [&](double albedo) {
-        const double g = shell.phase.mean_cosine(), d = 1 / (3 * (1 - albedo * g)), kappa = std::sqrt((1 - albedo) / d), beyond = 2 * d;
+        const double g = shell.phase.mean_cosine(), d = 1 / (3 * (1 - albedo * g)), kappa = std::sqrt((1 - albedo) / d),
+                     beyond = 2 * d;
         const double x = kappa * (shell.radius + beyond);
         if (x > 300) return 0.0;
         const double flux = kappa * shell.radius * std::cosh(kappa * beyond) + std::sinh(kappa * beyond);
@@ -88,7 +94,9 @@ bool Path::leave_by_cosine(const V3d& place, const V3d& normal, Real light_weigh
         const double cosine = light.valid ? light.direction.dot(normal) : 0;
         if (cosine > 0) {
             const Color passed = passing(place, light.direction, light.distance, {}, light.light, regions_);
-            if (!is_black(passed)) add_light_sample(light, light.distance, Color(light_weight * static_cast<Real>(cosine / pi)), cosine / pi, passed);
+            if (!is_black(passed))
+                add_light_sample(light, light.distance, Color(light_weight * static_cast<Real>(cosine / pi)),
+                                 cosine / pi, passed);
         }
     }
     const double u = sampler_.next(), v = sampler_.next();
@@ -104,7 +112,8 @@ void Path::add_event_light(const FittingShell& shell, double scale, double weigh
     const ShellEvent& event = shell.shell->event(sampler_.next());
     const V3d place = o_ + scale * frame.to_world({event.aside, 0, event.along});
     weight *= shell.shell->event_weight() / shell.shell->closeness(event);
-    add_phase_light(place, frame.to_world(V3d(event.direction)), shell.phase, Color(shell.ratio(event.events) * weight));
+    add_phase_light(place, frame.to_world(V3d(event.direction)), shell.phase,
+                    Color(shell.ratio(event.events) * weight));
 }
 
 double Path::first_flight(const FittingShell& shell)
@@ -124,7 +133,8 @@ void Path::add_phase_light(const V3d& place, const V3d& before, const PhaseFunct
     if (!light.valid) return;
     const double density = phase.pdf(before.dot(light.direction));
     const Color passed = passing(place, light.direction, light.distance, {}, light.light, regions_);
-    if (!is_black(passed)) add_light_sample(light, light.distance, weight * static_cast<Real>(density), density, passed);
+    if (!is_black(passed))
+        add_light_sample(light, light.distance, weight * static_cast<Real>(density), density, passed);
 }
 
 } // namespace scree

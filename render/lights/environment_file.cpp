@@ -1,7 +1,7 @@
 #include "render/lights/environment_file.h"
 
-#include "base/error.h"
 #include "base/drawing/picture_file.h"
+#include "base/error.h"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,10 @@ EnvironmentMap read_environment(const std::filesystem::path& file, const V3d& up
     const PictureFile picture = read_picture_file(file);
     const size_t width = picture.width, height = picture.height, channels = picture.channels;
     if (!picture.whole) {
-        throw InputError(file.string(), fmt::format("a crop of {}x{} out of {}x{} pixels", width, height, picture.full_width, picture.full_height),
-                         "the whole picture");
+        throw InputError(
+            file.string(),
+            fmt::format("a crop of {}x{} out of {}x{} pixels", width, height, picture.full_width, picture.full_height),
+            "the whole picture");
     }
 
     const auto decode = [&](float x) { // IEC 61966-2-1
@@ -28,8 +30,8 @@ EnvironmentMap read_environment(const std::filesystem::path& file, const V3d& up
         texels[i] = channels >= 3 ? Color(decode(v[0]), decode(v[1]), decode(v[2])) : Color(decode(v[0]));
         for (const Real x : {texels[i].x, texels[i].y, texels[i].z}) {
             if (!std::isfinite(x) || x < 0) {
-                throw InputError(fmt::format("{}: row {}, column {}", file.string(), i / width, i % width), fmt::format("{}", x),
-                                 "a radiance of 0 or more");
+                throw InputError(fmt::format("{}: row {}, column {}", file.string(), i / width, i % width),
+                                 fmt::format("{}", x), "a radiance of 0 or more");
             }
         }
     }

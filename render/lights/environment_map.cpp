@@ -21,7 +21,8 @@ Imath::M33d rotation_to(const V3d& up)
 
 } // namespace
 
-EnvironmentMap::EnvironmentMap(std::vector<Color> texels, size_t width, size_t height, const V3d& up, const Color& scale)
+EnvironmentMap::EnvironmentMap(std::vector<Color> texels, size_t width, size_t height, const V3d& up,
+                               const Color& scale)
     : texels_(std::move(texels)), width_(width), height_(height), to_world_(rotation_to(up.normalized()))
 {
     to_map_ = to_world_.transposed();
@@ -59,7 +60,9 @@ Color EnvironmentMap::radiance(const V3d& direction) const
         const auto w = static_cast<int64_t>(width_);
         return static_cast<size_t>(((static_cast<int64_t>(column) % w) + w) % w);
     };
-    const auto clamp = [&](double row) { return static_cast<size_t>(std::clamp(row, 0.0, static_cast<double>(height_ - 1))); };
+    const auto clamp = [&](double row) {
+        return static_cast<size_t>(std::clamp(row, 0.0, static_cast<double>(height_ - 1)));
+    };
     const size_t x0 = wrap(std::floor(x)), x1 = wrap(std::floor(x) + 1);
     const size_t y0 = clamp(std::floor(y)), y1 = clamp(std::floor(y) + 1);
     const auto row = [&](size_t yy) {

@@ -151,7 +151,8 @@ Color LightSet::infinite_radiance(uint32_t index, const V3d& direction) const
     case LightKind::environment: return light.map->radiance(direction);
     case LightKind::distant: // |a - b|^2 = 2 (1 - cos), without the cancellation of 1 - a.b
         return light.one_minus_cos > 0 && (direction - light.direction).length2() <= 2 * light.one_minus_cos
-                   ? light.radiance : Color(0);
+                   ? light.radiance
+                   : Color(0);
     default: return Color(0);
     }
 }

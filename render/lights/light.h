@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/lights/environment_map.h"
 #include "base/math.h"
+#include "render/lights/environment_map.h"
 
 #include <memory>
 #include <vector>
@@ -13,14 +13,14 @@ enum class LightKind : uint8_t { constant, environment, distant, rectangle, sphe
 /// A source of light, in render coordinates. Rectangles shine from both faces, spheres outwards; neither reflects.
 struct Light {
     LightKind kind = LightKind::constant;
-    Color radiance{1};                       ///< emitted; for distant the radiance of the disc (irradiance when it is a point)
-    V3d direction{0, 0, 1};                ///< distant: unit, from the scene towards the light
-    double one_minus_cos = 0;              ///< distant: of half its angular diameter; 0 is a point
-    V3d corner{0}, edge1{0}, edge2{0};     ///< rectangle
-    V3d normal{0, 0, 1};                   ///< rectangle: unit
-    double area = 0;                       ///< rectangle, sphere
-    V3d center{0};                         ///< sphere
-    double radius = 0;                     ///< sphere
+    Color radiance{1}; ///< emitted; for distant the radiance of the disc (irradiance when it is a point)
+    V3d direction{0, 0, 1}; ///< distant: unit, from the scene towards the light
+    double one_minus_cos = 0; ///< distant: of half its angular diameter; 0 is a point
+    V3d corner{0}, edge1{0}, edge2{0}; ///< rectangle
+    V3d normal{0, 0, 1}; ///< rectangle: unit
+    double area = 0; ///< rectangle, sphere
+    V3d center{0}; ///< sphere
+    double radius = 0; ///< sphere
     std::shared_ptr<const EnvironmentMap> map; ///< environment
 
     bool is_infinite() const { return kind <= LightKind::distant; }
@@ -29,10 +29,10 @@ struct Light {
 };
 
 struct LightSample {
-    V3d direction{0};      ///< unit, from the point towards the light
-    double distance = 0;   ///< to the light; infinity where it is infinite
-    Color radiance{0};       ///< arriving, were nothing in the way
-    double pdf = 0;        ///< per solid angle, including the choice of the light; for a point light its choice only
+    V3d direction{0}; ///< unit, from the point towards the light
+    double distance = 0; ///< to the light; infinity where it is infinite
+    Color radiance{0}; ///< arriving, were nothing in the way
+    double pdf = 0; ///< per solid angle, including the choice of the light; for a point light its choice only
     bool delta = false;
     uint32_t light = 0;
     bool valid = false;
@@ -42,7 +42,8 @@ struct LightSample {
 class LightSet {
 public:
     LightSet() = default;
-    /// scene_radius: of the sphere around everything, in render coordinates; only weighs infinite lights against near ones.
+    /// scene_radius: of the sphere around everything, in render coordinates; only weighs infinite lights against near
+    /// ones.
     LightSet(std::vector<Light> lights, double scene_radius);
 
     const std::vector<Light>& lights() const { return lights_; }
@@ -61,7 +62,7 @@ public:
 
 private:
     std::vector<Light> lights_;
-    std::vector<double> choice_;    // probability of each light
+    std::vector<double> choice_; // probability of each light
     std::vector<double> cumulated_; // size + 1
     bool any_sampled_ = false;
 };

@@ -23,19 +23,21 @@ void for_pixels(const Film& film, int tile, const F& f)
     const int width = film.x1() - film.x0(), height = film.y1() - film.y0();
     const int x0 = tile % film.tile_columns() * Film::tile_size, y0 = tile / film.tile_columns() * Film::tile_size;
     for (int y = y0; y < std::min(y0 + Film::tile_size, height); ++y) {
-        for (int x = x0; x < std::min(x0 + Film::tile_size, width); ++x) f(static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x));
+        for (int x = x0; x < std::min(x0 + Film::tile_size, width); ++x)
+            f(static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x));
     }
 }
 
 constexpr double noisy = 0.1; // relative variance of a pixel's mean at which the mean says nothing of its brightness
 
-/// The mean, made shorter so that its square has the expectation of the true one's; the noisier it is, the less is it taken
-/// to be brighter than its tile: of pixels that met a rare light once, the mean is all noise.
+/// The mean, made shorter so that its square has the expectation of the true one's; the noisier it is, the less is it
+/// taken to be brighter than its tile: of pixels that met a rare light once, the mean is all noise.
 V3d unbiased_scale(const V3d& mean, double variance_of_mean, const V3d& tile_mean)
 {
     const double square = mean.dot(mean);
     if (square <= 0) return mean;
-    const double corrected = std::max(0.0, square - variance_of_mean), trust = 1 - std::min(1.0, variance_of_mean / (noisy * square));
+    const double corrected = std::max(0.0, square - variance_of_mean),
+                 trust = 1 - std::min(1.0, variance_of_mean / (noisy * square));
     return std::sqrt((trust * corrected + (1 - trust) * std::min(corrected, tile_mean.dot(tile_mean))) / square) * mean;
 }
 
@@ -45,13 +47,15 @@ void estimate_variance(const Film& film, int tile, int half, const RelativeError
     TileEstimate& estimate = state.estimates[static_cast<size_t>(half)];
     double sum = 0, squares = 0;
     for_pixels(film, tile, [&](size_t i) {
-        const double q = relative_variance(film.halves()[i].judge(half, state.counts), estimate.sum / static_cast<double>(estimate.pixels), measure);
+        const double q = relative_variance(film.halves()[i].judge(half, state.counts),
+                                           estimate.sum / static_cast<double>(estimate.pixels), measure);
         sum += q;
         squares += q * q;
     });
     const double n = static_cast<double>(estimate.pixels);
     estimate.variance = sum / n;
-    estimate.deviation = n > 1 ? std::sqrt(std::max(0.0, squares / n - estimate.variance * estimate.variance) / (n - 1)) : estimate.variance;
+    estimate.deviation = n > 1 ? std::sqrt(std::max(0.0, squares / n - estimate.variance * estimate.variance) / (n - 1))
+                               : estimate.variance;
 }
 
 } // namespace
@@ -170,19 +174,23 @@ std::vector<double> AdaptivePlan::wanted(int half) const
             double around = 0, noise = 0, count = 0;
             for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r) {
                 for (int c = std::max(0, column - 1); c <= std::min(columns_ - 1, column + 1); ++c) {
-                    const TileEstimate& near = states_.tiles[static_cast<size_t>(r * columns_ + c)].estimates[static_cast<size_t>(half)];
+                    const TileEstimate& near =
+                        states_.tiles[static_cast<size_t>(r * columns_ + c)].estimates[static_cast<size_t>(half)];
                     const double n = static_cast<double>(near.pixels);
                     around += near.variance * n;
                     noise += near.deviation * near.deviation * n;
                     count += n;
                 }
             }
-            const TileEstimate& own = states_.tiles[static_cast<size_t>(row * columns_ + column)].estimates[static_cast<size_t>(half)];
+            const TileEstimate& own =
+                states_.tiles[static_cast<size_t>(row * columns_ + column)].estimates[static_cast<size_t>(half)];
             double variance = own.variance;
             if (noise > 0) {
-                // As if all variance were rare sightings of equal light: a tile is expected to have so many. One that has none may have missed them.
+                // As if all variance were rare sightings of equal light: a tile is expected to have so many. One that
+                // has none may have missed them.
                 const double sightings = around * around / (noise * count), known = sightings + expected;
-                variance = (sightings * own.variance + expected * around / count) / known * (1 + caution / std::sqrt(known));
+                variance =
+                    (sightings * own.variance + expected * around / count) / known * (1 + caution / std::sqrt(known));
             }
             variances.push_back(variance);
             samples.push_back(std::sqrt(variance / own.work));
@@ -193,7 +201,8 @@ std::vector<double> AdaptivePlan::wanted(int half) const
     const double scale = pixels > 0 ? sum / pixels : 0;
     for (size_t i = 0; i < samples.size(); ++i) {
         const double least = variances[i] / (worst_tile * worst_tile);
-        samples[i] = std::max(samples[i] * scale, least) / (2 * error_ * error_); // both halves together have twice the samples
+        samples[i] =
+            std::max(samples[i] * scale, least) / (2 * error_ * error_); // both halves together have twice the samples
     }
     return samples;
 }

@@ -21,7 +21,9 @@ std::string bytes_text(uint64_t bytes)
 std::string part_text(const PartReport& part)
 {
     std::string text = fmt::format("  {:<8} {:<26} {}", part.built ? "built" : "skipped", part.part, part.reason);
-    if (part.built && (part.bytes > 0 || part.seconds > 0)) text += part.bytes > 0 ? fmt::format(" ({}, {:.3f} s)", bytes_text(part.bytes), part.seconds) : fmt::format(" ({:.3f} s)", part.seconds);
+    if (part.built && (part.bytes > 0 || part.seconds > 0))
+        text += part.bytes > 0 ? fmt::format(" ({}, {:.3f} s)", bytes_text(part.bytes), part.seconds)
+                               : fmt::format(" ({:.3f} s)", part.seconds);
     return text + "\n";
 }
 
@@ -47,22 +49,32 @@ std::vector<PartReport> all_parts(const WorldBuilder& builder, const World& worl
     const FilmDescription& film = builder.scene().film;
     const std::string why_proxies = fmt::format("after {} grains of a path", plan.explicit_grains);
     const std::string why_none = !plan.has_grains || plan.replaces_all ? plan.why : "every grain is traced as it is";
-    std::vector<PartReport> parts{{"explicit grains", plan.has_exemplars(), plan.why}, {"proxies", plan.has_proxies(), plan.has_proxies() ? why_proxies : why_none}};
+    std::vector<PartReport> parts{{"explicit grains", plan.has_exemplars(), plan.why},
+                                  {"proxies", plan.has_proxies(), plan.has_proxies() ? why_proxies : why_none}};
     parts.insert(parts.end(), builder.parts().begin(), builder.parts().end());
 
     if (is_cropped) { // a grain out of sight shades those in sight and lights them, so a list keeps it
         const std::string part = "grains outside the crop";
-        if (!plan.has_grains || plan.replaces_all) parts.push_back({part, false, plan.why});
-        else if (world.fill) parts.push_back({part, false, "none is listed: rays find those that they meet"});
-        else parts.push_back({part, true, "kept: light may come by way of any"});
+        if (!plan.has_grains || plan.replaces_all)
+            parts.push_back({part, false, plan.why});
+        else if (world.fill)
+            parts.push_back({part, false, "none is listed: rays find those that they meet"});
+        else
+            parts.push_back({part, true, "kept: light may come by way of any"});
     }
     // As the tracer has it; where a medium is to stand for all grains they may be there still.
-    const bool enters = plan.needs_gsdfs() || std::ranges::any_of(world.types, [](const GrainType& type) { return type.material.transmits(); });
+    const bool enters = plan.needs_gsdfs() || std::ranges::any_of(world.types, [](const GrainType& type) {
+                            return type.material.transmits();
+                        });
     const bool cut = enters && world.has_grains() && !plan.replaces_all && !world.surfaces.empty();
-    parts.push_back({"surfaces inside grains", cut, cut ? "a second structure of the surfaces, for grains they cut through" : "no path can be inside a grain and meet a surface"});
+    parts.push_back({"surfaces inside grains", cut,
+                     cut ? "a second structure of the surfaces, for grains they cut through"
+                         : "no path can be inside a grain and meet a surface"});
     const bool sampled = world.lights.any_sampled();
-    const char* found = world.lights.lights().empty() ? "the scene has no light" : "only constant light, or none, which every path finds";
-    parts.push_back({"light sampling", sampled, sampled ? "next-event estimation with multiple importance sampling" : found});
+    const char* found = world.lights.lights().empty() ? "the scene has no light"
+                                                      : "only constant light, or none, which every path finds";
+    parts.push_back(
+        {"light sampling", sampled, sampled ? "next-event estimation with multiple importance sampling" : found});
     for (size_t i = 0; i < aov_names.size(); ++i) {
         const bool wanted = std::ranges::find(film.aov, static_cast<Aov>(i)) != film.aov.end();
         parts.push_back({"channels " + aov_names[i], wanted, wanted ? "asked for" : "not asked for"});
@@ -73,14 +85,19 @@ std::vector<PartReport> all_parts(const WorldBuilder& builder, const World& worl
 std::string plan_text(const WorldBuilder& builder, const World& world, size_t frame, bool is_cropped)
 {
     const SceneDescription& scene = builder.scene();
-    std::string text = fmt::format("{}: {}x{}, integrator {}", scene.file.string(), scene.film.width, scene.film.height, integrator_names[static_cast<size_t>(scene.integrator.kind)]);
-    if (scene.integrator.kind == IntegratorKind::automatic) text += fmt::format(", accuracy {}", accuracy_names[static_cast<size_t>(scene.integrator.accuracy)]);
-    text += builder.frame_name(frame).empty() ? "\n" : fmt::format(", frame {} of {}: {}\n", frame, builder.frame_count(), builder.frame_name(frame));
+    std::string text = fmt::format("{}: {}x{}, integrator {}", scene.file.string(), scene.film.width, scene.film.height,
+                                   integrator_names[static_cast<size_t>(scene.integrator.kind)]);
+    if (scene.integrator.kind == IntegratorKind::automatic)
+        text += fmt::format(", accuracy {}", accuracy_names[static_cast<size_t>(scene.integrator.accuracy)]);
+    text += builder.frame_name(frame).empty()
+                ? "\n"
+                : fmt::format(", frame {} of {}: {}\n", frame, builder.frame_count(), builder.frame_name(frame));
     for (const PartReport& part : all_parts(builder, world, is_cropped)) text += part_text(part);
     text += part_text({"acceleration structure", true, "to be built by Embree"});
     const bool none_traced = builder.plan().replaces_all;
-    text += fmt::format("  would trace {}{}{} grains of {} types among {} surfaces and {} media under {} lights\n", none_traced ? "a medium in place of " : "", world.fill ? "about " : "",
-                        world.grain_count(), world.types.size(), world.surfaces.size(), world.regions.size(), world.lights.lights().size());
+    text += fmt::format("  would trace {}{}{} grains of {} types among {} surfaces and {} media under {} lights\n",
+                        none_traced ? "a medium in place of " : "", world.fill ? "about " : "", world.grain_count(),
+                        world.types.size(), world.surfaces.size(), world.regions.size(), world.lights.lights().size());
     return text;
 }
 
@@ -89,15 +106,25 @@ std::string statistics_text(const FrameReport& report)
     const RenderStatistics& s = report.statistics;
     std::string text = fmt::format("frame {} {}: {} grains\n", report.frame, report.name, report.grains);
     for (const PartReport& part : report.parts) text += part_text(part);
-    text += fmt::format("  set up in {:.2f} s, rendered in {:.2f} s: {} samples a pixel, {} paths\n", report.setup_seconds, s.seconds, s.spp, s.paths);
+    text += fmt::format("  set up in {:.2f} s, rendered in {:.2f} s: {} samples a pixel, {} paths\n",
+                        report.setup_seconds, s.seconds, s.spp, s.paths);
     if (s.error) {
-        text += fmt::format("  relative error {:.3g} (tile of the largest: {:.3g}), {:.1f} samples a pixel in the mean\n", s.error->picture, s.error->worst_tile, s.mean_spp);
+        text +=
+            fmt::format("  relative error {:.3g} (tile of the largest: {:.3g}), {:.1f} samples a pixel in the mean\n",
+                        s.error->picture, s.error->worst_tile, s.mean_spp);
     }
-    text += fmt::format("  {} segments ({:.3f} million a second), {} shadow rays, {:.2f} segments a path, longest {}\n", s.segments,
-                        1e-6 * per_second(s.segments, s.seconds), s.shadow_rays, static_cast<double>(s.segments) / static_cast<double>(std::max<uint64_t>(1, s.paths)), s.longest);
-    if (s.events > 0) text += fmt::format("  {} scatterings in media ({:.3f} million a second)\n", s.events, 1e-6 * per_second(s.events, s.seconds));
-    if (s.shells > 0) text += fmt::format("  {} shells ({:.3f} million a second)\n", s.shells, 1e-6 * per_second(s.shells, s.seconds));
-    text += fmt::format("  {} samples not finite, {} rays lost between triangles, peak memory {}\n", s.non_finite, s.leaks, bytes_text(peak_bytes()));
+    text +=
+        fmt::format("  {} segments ({:.3f} million a second), {} shadow rays, {:.2f} segments a path, longest {}\n",
+                    s.segments, 1e-6 * per_second(s.segments, s.seconds), s.shadow_rays,
+                    static_cast<double>(s.segments) / static_cast<double>(std::max<uint64_t>(1, s.paths)), s.longest);
+    if (s.events > 0)
+        text += fmt::format("  {} scatterings in media ({:.3f} million a second)\n", s.events,
+                            1e-6 * per_second(s.events, s.seconds));
+    if (s.shells > 0)
+        text +=
+            fmt::format("  {} shells ({:.3f} million a second)\n", s.shells, 1e-6 * per_second(s.shells, s.seconds));
+    text += fmt::format("  {} samples not finite, {} rays lost between triangles, peak memory {}\n", s.non_finite,
+                        s.leaks, bytes_text(peak_bytes()));
     return text;
 }
 
@@ -109,20 +136,45 @@ std::string statistics_json(const std::vector<FrameReport>& reports, const std::
         const RenderStatistics& s = report.statistics;
         json parts = json::array();
         for (const PartReport& part : report.parts) {
-            parts.push_back({{"part", part.part}, {"built", part.built}, {"reason", part.reason}, {"seconds", part.seconds}, {"bytes", part.bytes}});
+            parts.push_back({{"part", part.part},
+                             {"built", part.built},
+                             {"reason", part.reason},
+                             {"seconds", part.seconds},
+                             {"bytes", part.bytes}});
         }
-        frames.push_back({{"frame", report.frame}, {"particles", report.name}, {"grains", report.grains}, {"parts", parts},
-                          {"setup_seconds", report.setup_seconds}, {"render_seconds", s.seconds}, {"spp", s.spp}, {"paths", s.paths},
-                          {"segments", s.segments}, {"shadow_rays", s.shadow_rays}, {"medium_events", s.events}, {"shells", s.shells}, {"longest_path", s.longest},
-                          {"segments_per_second", per_second(s.segments, s.seconds)}, {"non_finite", s.non_finite}, {"leaks", s.leaks},
-                          {"mean_spp", s.mean_spp}, {"cut", s.cut}, {"stopped", s.stopped}, {"cancelled", s.cancelled}, {"timed_out", s.timed_out}});
+        frames.push_back({{"frame", report.frame},
+                          {"particles", report.name},
+                          {"grains", report.grains},
+                          {"parts", parts},
+                          {"setup_seconds", report.setup_seconds},
+                          {"render_seconds", s.seconds},
+                          {"spp", s.spp},
+                          {"paths", s.paths},
+                          {"segments", s.segments},
+                          {"shadow_rays", s.shadow_rays},
+                          {"medium_events", s.events},
+                          {"shells", s.shells},
+                          {"longest_path", s.longest},
+                          {"segments_per_second", per_second(s.segments, s.seconds)},
+                          {"non_finite", s.non_finite},
+                          {"leaks", s.leaks},
+                          {"mean_spp", s.mean_spp},
+                          {"cut", s.cut},
+                          {"stopped", s.stopped},
+                          {"cancelled", s.cancelled},
+                          {"timed_out", s.timed_out}});
         if (s.error) {
             frames.back()["relative_error"] = s.error->picture;
             frames.back()["worst_tile_error"] = s.error->worst_tile;
             frames.back()["error_reached"] = s.error_reached;
         }
     }
-    return json{{"version", SCREE_VERSION}, {"integrator", integrator}, {"peak_memory_bytes", peak_bytes()}, {"frames", frames}}.dump(2) + "\n";
+    return json{{"version", SCREE_VERSION},
+                {"integrator", integrator},
+                {"peak_memory_bytes", peak_bytes()},
+                {"frames", frames}}
+               .dump(2) +
+           "\n";
 }
 
 std::string debug_text(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter,
@@ -130,22 +182,24 @@ std::string debug_text(const World& world, const Tracer& tracer, const Camera& c
 {
     flush_subnormals();
     std::vector<PathVertex> trail;
-    const PathResult result = render_sample(world, tracer, camera, filter, place.x, place.y, place.sample, options, &trail);
-    std::string text = fmt::format("pixel {},{} sample {}: radiance {} {} {}, {} segments\n", place.x, place.y, place.sample,
-                                   result.radiance.x, result.radiance.y, result.radiance.z, result.segments);
+    const PathResult result =
+        render_sample(world, tracer, camera, filter, place.x, place.y, place.sample, options, &trail);
+    std::string text =
+        fmt::format("pixel {},{} sample {}: radiance {} {} {}, {} segments\n", place.x, place.y, place.sample,
+                    result.radiance.x, result.radiance.y, result.radiance.z, result.segments);
     for (size_t i = 0; i < trail.size(); ++i) {
         const PathVertex& v = trail[i];
         const V3d o = world.space.world_point(v.o), p = world.space.world_point(v.hit.point);
-        text += fmt::format("{:4} from ({:.9g} {:.9g} {:.9g}) along ({:.6f} {:.6f} {:.6f}){} meets {}", i, o.x, o.y, o.z, v.d.x, v.d.y, v.d.z,
-                            v.inside ? " inside" : "", kind_name(v.hit.place.kind));
+        text += fmt::format("{:4} from ({:.9g} {:.9g} {:.9g}) along ({:.6f} {:.6f} {:.6f}){} meets {}", i, o.x, o.y,
+                            o.z, v.d.x, v.d.y, v.d.z, v.inside ? " inside" : "", kind_name(v.hit.place.kind));
         if (v.hit.place.kind == HitKind::grain) {
             text += fmt::format(" id {} type {}", world.id(v.hit.place.index), world.types[v.hit.place.type].name);
         } else if (v.hit.place.kind == HitKind::surface) {
             text += " " + world.surfaces[v.hit.place.index].name;
         }
         if (v.hit.place.kind != HitKind::none) text += fmt::format(" at ({:.9g} {:.9g} {:.9g})", p.x, p.y, p.z);
-        text += fmt::format("; weight {:.6g} {:.6g} {:.6g}, radiance {:.6g} {:.6g} {:.6g}\n", v.weight.x, v.weight.y, v.weight.z,
-                            v.radiance.x, v.radiance.y, v.radiance.z);
+        text += fmt::format("; weight {:.6g} {:.6g} {:.6g}, radiance {:.6g} {:.6g} {:.6g}\n", v.weight.x, v.weight.y,
+                            v.weight.z, v.radiance.x, v.radiance.y, v.radiance.z);
     }
     return text;
 }

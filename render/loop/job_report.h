@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/loop/render_loop.h"
 #include "render/build/world_builder.h"
+#include "render/loop/render_loop.h"
 
 #include <string>
 #include <vector>
@@ -18,8 +18,8 @@ struct FrameReport {
     RenderStatistics statistics{};
 };
 
-/// All that was built for the builder's last world, would be, or is skipped, and why, but for the acceleration structure.
-/// is_cropped: only a part of the picture is asked for.
+/// All that was built for the builder's last world, would be, or is skipped, and why, but for the acceleration
+/// structure. is_cropped: only a part of the picture is asked for.
 std::vector<PartReport> all_parts(const WorldBuilder& builder, const World& world, bool is_cropped);
 
 /// What would be built for this world and what is skipped, and why; a line a part.

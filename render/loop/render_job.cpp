@@ -4,9 +4,9 @@
 #include "base/console_progress.h"
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/interrupt.h"
 #include "render/film/checkpoint.h"
 #include "render/film/exr_output.h"
-#include "base/interrupt.h"
 #include "render/loop/job_report.h"
 #include "render/loop/render_setup.h"
 
@@ -61,18 +61,24 @@ Film make_film(const RenderJob& job, const FilmDescription& film)
         y1 = std::min(h, b[3]);
     }
     if (x0 >= x1 || y0 >= y1) {
-        throw InputError(job.crop ? "--cropwindow" : "--pixelbounds", "no pixel inside", fmt::format("part of the {}x{} picture", w, h));
+        throw InputError(job.crop ? "--cropwindow" : "--pixelbounds", "no pixel inside",
+                         fmt::format("part of the {}x{} picture", w, h));
     }
     return Film(w, h, x0, y0, x1, y1);
 }
 
-PictureMetadata make_metadata(const RenderJob& job, const WorldBuilder& builder, const World& world, const Camera& camera,
-                              size_t frame, const RenderStatistics& statistics)
+PictureMetadata make_metadata(const RenderJob& job, const WorldBuilder& builder, const World& world,
+                              const Camera& camera, size_t frame, const RenderStatistics& statistics)
 {
     PictureMetadata metadata;
-    metadata.texts = {{"software", "Scree"}, {"version", SCREE_VERSION}, {"integrator", builder.plan().name()},
-                      {"sceneHash", fmt::format("{:016x}", builder.scene_hash())}, {"seed", std::to_string(job.options.seed)}};
-    metadata.numbers = {{"spp", statistics.spp}, {"renderTime", statistics.seconds}, {"frame", static_cast<double>(frame)},
+    metadata.texts = {{"software", "Scree"},
+                      {"version", SCREE_VERSION},
+                      {"integrator", builder.plan().name()},
+                      {"sceneHash", fmt::format("{:016x}", builder.scene_hash())},
+                      {"seed", std::to_string(job.options.seed)}};
+    metadata.numbers = {{"spp", statistics.spp},
+                        {"renderTime", statistics.seconds},
+                        {"frame", static_cast<double>(frame)},
                         {"nonFiniteSamples", static_cast<double>(statistics.non_finite)}};
     if (statistics.error) {
         metadata.numbers["relativeError"] = statistics.error->picture;
@@ -86,17 +92,21 @@ PictureMetadata make_metadata(const RenderJob& job, const WorldBuilder& builder,
     }
     if (plan.has_shells) metadata.texts["stfForm"] = stf_form_names[static_cast<size_t>(plan.stf_form)];
     if (plan.has_proxies()) metadata.numbers["explicitGrains"] = plan.explicit_grains;
-    if (plan.kind != IntegratorKind::ept) metadata.texts["accuracy"] = accuracy_names[static_cast<size_t>(plan.accuracy)];
-    if (builder.scene().assembly && !builder.frame_name(frame).empty()) metadata.texts["particles"] = builder.frame_name(frame);
+    if (plan.kind != IntegratorKind::ept)
+        metadata.texts["accuracy"] = accuracy_names[static_cast<size_t>(plan.accuracy)];
+    if (builder.scene().assembly && !builder.frame_name(frame).empty())
+        metadata.texts["particles"] = builder.frame_name(frame);
     std::vector<std::string> types;
     for (size_t i = 0; i < world.types.size(); ++i) types.push_back(fmt::format("{}={}", i, world.types[i].name));
     if (!types.empty()) metadata.texts["grainTypes"] = fmt::format("{}", fmt::join(types, ","));
     const V3d o = world.space.origin;
     const double scale = world.space.length(1);
-    const Imath::M44d to_render(scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, scale, 0, -o.x * scale, -o.y * scale, -o.z * scale, 1);
+    const Imath::M44d to_render(scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, scale, 0, -o.x * scale, -o.y * scale,
+                                -o.z * scale, 1);
     const double back = world.space.world_length(1);
     // Camera space is in the scene's unit again; NDC has none.
-    metadata.world_to_camera = to_render * camera.world_to_camera() * Imath::M44d(back, 0, 0, 0, 0, back, 0, 0, 0, 0, back, 0, 0, 0, 0, 1);
+    metadata.world_to_camera =
+        to_render * camera.world_to_camera() * Imath::M44d(back, 0, 0, 0, 0, back, 0, 0, 0, 0, back, 0, 0, 0, 0, 1);
     metadata.world_to_ndc = to_render * camera.world_to_ndc();
     metadata.depth_scale = back;
     return metadata;
@@ -114,7 +124,8 @@ void check_outputs(const std::vector<std::string>& outputs)
 {
     for (const std::string& output : outputs) {
         const std::filesystem::path path(output);
-        if (path.extension().empty()) throw InputError("--output", "'" + output + "'", "a name with an extension: .exr, .png, .jpg");
+        if (path.extension().empty())
+            throw InputError("--output", "'" + output + "'", "a name with an extension: .exr, .png, .jpg");
         if (path.has_parent_path() && !std::filesystem::is_directory(path.parent_path())) {
             throw InputError("--output", "no folder '" + path.parent_path().string() + "'", "a folder that exists");
         }
@@ -124,15 +135,17 @@ void check_outputs(const std::vector<std::string>& outputs)
 
 class Job {
 public:
-    explicit Job(const RenderJob& job) : job_(job), console_(job.quiet), builder_(load_scene(job)), scene_(builder_.scene())
+    explicit Job(const RenderJob& job)
+        : job_(job), console_(job.quiet), builder_(load_scene(job)), scene_(builder_.scene())
     {
         outputs_ = job.outputs;
         if (outputs_.empty()) outputs_ = {scene_.file.stem().string() + ".exr"};
         check_outputs(outputs_);
         range_ = job.frames.value_or(FrameRange{});
         if (range_.last >= builder_.frame_count()) {
-            throw InputError("--frames", std::to_string(range_.last),
-                             fmt::format("0 to {}: the dump has {} frames", builder_.frame_count() - 1, builder_.frame_count()));
+            throw InputError(
+                "--frames", std::to_string(range_.last),
+                fmt::format("0 to {}: the dump has {} frames", builder_.frame_count() - 1, builder_.frame_count()));
         }
     }
 
@@ -142,7 +155,8 @@ public:
         const bool stats_file = !job_.stats_json.empty() && !job_.plan_only;
         if (stats_file) AtomicFile(job_.stats_json); // better told now than after hours of rendering
         try {
-            for (size_t frame = range_.first; frame <= range_.last && !interrupted_; frame += range_.step) run_frame(frame);
+            for (size_t frame = range_.first; frame <= range_.last && !interrupted_; frame += range_.step)
+                run_frame(frame);
         } catch (const Cancelled&) {
             interrupted_ = true;
             say("interrupted before the first sample");
@@ -153,7 +167,9 @@ public:
             std::ofstream out(file.temporary());
             out << statistics_json(reports_, builder_.plan().name());
             out.close();
-            if (!out) throw InputError(job_.stats_json.string(), "a disk that is full or cannot be written", "room for the statistics");
+            if (!out)
+                throw InputError(job_.stats_json.string(), "a disk that is full or cannot be written",
+                                 "room for the statistics");
             file.commit();
         }
         return interrupted_ ? interrupted_status : 0;
@@ -165,11 +181,13 @@ private:
         const bool many = range_.first != range_.last;
         if (many) console_.set_prefix(fmt::format("frame {}", frame));
         if (!job_.plan_only && !job_.debug_sample) {
-            for (const std::string& output : outputs_) AtomicFile(frame_path(output, frame, many)); // can be written, before the work
+            for (const std::string& output : outputs_)
+                AtomicFile(frame_path(output, frame, many)); // can be written, before the work
         }
         const auto start = std::chrono::steady_clock::now();
         Progress& progress = console_.progress();
-        const std::shared_ptr<const World> world = builder_.build(frame, progress, job_.plan_only ? Precompute::never : Precompute::now);
+        const std::shared_ptr<const World> world =
+            builder_.build(frame, progress, job_.plan_only ? Precompute::never : Precompute::now);
         say_warnings();
         if (progress.cancelled()) {
             interrupted_ = true;
@@ -190,30 +208,39 @@ private:
         const RenderOptions& options = setup.options();
         if (job_.debug_sample) {
             if (job_.debug_sample->x >= scene_.film.width || job_.debug_sample->y >= scene_.film.height) {
-                throw InputError("--debug-sample", fmt::format("pixel {},{}", job_.debug_sample->x, job_.debug_sample->y),
+                throw InputError("--debug-sample",
+                                 fmt::format("pixel {},{}", job_.debug_sample->x, job_.debug_sample->y),
                                  fmt::format("a pixel of the {}x{} picture", scene_.film.width, scene_.film.height));
             }
-            fmt::print("{}", debug_text(*world, setup.tracer(), setup.camera(), setup.filter(), *job_.debug_sample, options));
+            fmt::print("{}",
+                       debug_text(*world, setup.tracer(), setup.camera(), setup.filter(), *job_.debug_sample, options));
             return;
         }
         Film film = make_film(job_, scene_.film);
         if (options.error > 0) film.keep_halves();
         const std::filesystem::path checkpoint = frame_path(outputs_[0], frame, many) + ".checkpoint";
         const uint64_t approximation = hash_plan(builder_.plan());
-        const uint64_t estimator = mix64(approximation ^ mix64(options.path.max_depth * uint64_t{4} + static_cast<uint64_t>(options.path.direct_light)));
-        const CheckpointKey key{mix64(builder_.scene_hash() ^ estimator ^ std::bit_cast<uint64_t>(options.error)), options.seed};
+        const uint64_t estimator = mix64(approximation ^ mix64(options.path.max_depth * uint64_t{4} +
+                                                               static_cast<uint64_t>(options.path.direct_light)));
+        const CheckpointKey key{mix64(builder_.scene_hash() ^ estimator ^ std::bit_cast<uint64_t>(options.error)),
+                                options.seed};
         if (job_.resume && std::filesystem::exists(checkpoint)) read_checkpoint(checkpoint, film, key);
 
         report.statistics = render(*world, setup.tracer(), setup.camera(), setup.filter(), film, options, progress);
         interrupted_ = report.statistics.cancelled;
-        const PictureMetadata metadata = make_metadata(job_, builder_, *world, setup.camera(), frame, report.statistics);
+        const PictureMetadata metadata =
+            make_metadata(job_, builder_, *world, setup.camera(), frame, report.statistics);
         for (const std::string& output : outputs_) {
             const std::string path = frame_path(output, frame, many);
-            if (is_exr(path)) write_exr(path, film, scene_.film.aov, metadata);
-            else write_preview(path, film);
+            if (is_exr(path))
+                write_exr(path, film, scene_.film.aov, metadata);
+            else
+                write_preview(path, film);
         }
-        if (interrupted_ || (report.statistics.timed_out && (job_.spp || options.error > 0 || job_.resume))) write_checkpoint(checkpoint, film, key);
-        else std::filesystem::remove(checkpoint);
+        if (interrupted_ || (report.statistics.timed_out && (job_.spp || options.error > 0 || job_.resume)))
+            write_checkpoint(checkpoint, film, key);
+        else
+            std::filesystem::remove(checkpoint);
         console_.finish();
         if (job_.stats) fmt::print("{}", statistics_text(report));
         say_oddities(report.statistics);
@@ -236,15 +263,22 @@ private:
     {
         if (s.non_finite > 0) {
             const SamplePlace& p = *s.first_non_finite;
-            say(fmt::format("{} samples were not finite and are left out; the first again: --debug-sample {},{},{}", s.non_finite, p.x, p.y, p.sample));
+            say(fmt::format("{} samples were not finite and are left out; the first again: --debug-sample {},{},{}",
+                            s.non_finite, p.x, p.y, p.sample));
         }
-        if (s.cancelled) say(fmt::format("interrupted: the picture holds at least {} samples a pixel; go on with --resume", s.spp));
-        else if (s.timed_out) say(fmt::format("stopped by --timeout at {} samples a pixel", s.spp));
+        if (s.cancelled)
+            say(fmt::format("interrupted: the picture holds at least {} samples a pixel; go on with --resume", s.spp));
+        else if (s.timed_out)
+            say(fmt::format("stopped by --timeout at {} samples a pixel", s.spp));
         if (job_.options.error > 0 && !s.error_reached) {
-            say("--error was not reached: " + (s.error ? fmt::format("{:.3g}, in the worst tile {:.3g}", s.error->picture, s.error->worst_tile) : std::string("pixels have too few samples to tell it")));
+            say("--error was not reached: " +
+                (s.error ? fmt::format("{:.3g}, in the worst tile {:.3g}", s.error->picture, s.error->worst_tile)
+                         : std::string("pixels have too few samples to tell it")));
         }
-        if (s.stopped > 0) say(fmt::format("{} paths were still on their way when time ran out and are left out", s.stopped));
-        if (s.cut > 0) say(fmt::format("{} of {} paths were cut by the depth limit: the picture is too dark", s.cut, s.paths));
+        if (s.stopped > 0)
+            say(fmt::format("{} paths were still on their way when time ran out and are left out", s.stopped));
+        if (s.cut > 0)
+            say(fmt::format("{} of {} paths were cut by the depth limit: the picture is too dark", s.cut, s.paths));
     }
 
     const RenderJob& job_;
@@ -262,7 +296,8 @@ private:
 int run_render_job(const RenderJob& job)
 {
     std::optional<tbb::global_control> threads;
-    if (job.threads > 0) threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(job.threads));
+    if (job.threads > 0)
+        threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(job.threads));
     return Job(job).run();
 }
 

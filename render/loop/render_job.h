@@ -19,7 +19,7 @@ struct FrameRange {
 /// Everything `scree render` was asked to do.
 struct RenderJob {
     std::filesystem::path scene;
-    std::vector<std::string> outputs;       ///< empty: the scene's name with .exr
+    std::vector<std::string> outputs; ///< empty: the scene's name with .exr
     std::optional<uint32_t> spp;
     std::optional<IntegratorKind> integrator; ///< else the scene's, as the next nine
     std::optional<Accuracy> accuracy;
@@ -31,10 +31,10 @@ struct RenderJob {
     std::optional<StfForm> stf_form;
     std::optional<FrameRange> frames;
     std::optional<std::pair<int, int>> size;
-    std::optional<std::array<double, 4>> crop;    ///< x0, x1, y0, y1 in 0..1
+    std::optional<std::array<double, 4>> crop; ///< x0, x1, y0, y1 in 0..1
     std::optional<std::array<int, 4>> pixel_bounds;
-    std::vector<Aov> aov;                   ///< besides the scene's
-    int threads = 0;                        ///< 0: all cores
+    std::vector<Aov> aov; ///< besides the scene's
+    int threads = 0; ///< 0: all cores
     uint32_t max_depth = 0;
     RenderOptions options;
     bool resume = false, plan_only = false, stats = false, quiet = false;

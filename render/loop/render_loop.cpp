@@ -23,9 +23,13 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 bool finite(const Color& c) { return std::isfinite(c.x + c.y + c.z); }
 
-/// What a sample cost, in rays. A scattering in a medium takes as long as 4 of them, with the light that is looked for from there and what
-/// it passes, and a shell as 8: on the bench suite's cloud and statue these add up to the time of a pixel within 9 %.
-uint64_t work_of(const PathResult& path) { return uint64_t{path.segments} + path.shadow_rays + 4 * uint64_t{path.events} + 8 * uint64_t{path.shells}; }
+/// What a sample cost, in rays. A scattering in a medium takes as long as 4 of them, with the light that is looked for
+/// from there and what it passes, and a shell as 8: on the bench suite's cloud and statue these add up to the time of a
+/// pixel within 9 %.
+uint64_t work_of(const PathResult& path)
+{
+    return uint64_t{path.segments} + path.shadow_rays + 4 * uint64_t{path.events} + 8 * uint64_t{path.shells};
+}
 
 void count(const PathResult& path, RenderStatistics& part)
 {
@@ -42,18 +46,20 @@ void count(const PathResult& path, RenderStatistics& part)
 /// One call of `render`.
 class Loop {
 public:
-    Loop(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter, Film& film, const RenderOptions& options,
-         const Progress& progress)
-        : world_(world), tracer_(tracer), camera_(camera), filter_(filter), film_(film), options_(options), path_options_(options),
-          progress_(progress)
+    Loop(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter, Film& film,
+         const RenderOptions& options, const Progress& progress)
+        : world_(world), tracer_(tracer), camera_(camera), filter_(filter), film_(film), options_(options),
+          path_options_(options), progress_(progress)
     {
         path_options_.path.stop = [this] { return progress_.cancelled() || out_of_time(); };
     }
 
     RenderStatistics run()
     {
-        if (options_.error > 0) run_to_error();
-        else run_to_spp();
+        if (options_.error > 0)
+            run_to_error();
+        else
+            run_to_spp();
         uint64_t drawn = 0;
         for (const Pixel& pixel : film_.pixels()) drawn += pixel.drawn;
         total_.mean_spp = static_cast<double>(drawn) / static_cast<double>(std::max<size_t>(1, film_.pixels().size()));
@@ -80,8 +86,9 @@ private:
         while (done < options_.spp && !tiles.empty()) {
             const uint32_t target = done + std::min(wave, options_.spp - done);
             const auto wave_start = Clock::now();
-            const bool complete = run_wave(tiles, done == 0, [&](double wave_done) { return (done + wave_done * (target - done)) / options_.spp; },
-                                           [&](int tile, const auto& stop, RenderStatistics& part) { return run_tile(tile, target, stop, part); });
+            const bool complete = run_wave(
+                tiles, done == 0, [&](double wave_done) { return (done + wave_done * (target - done)) / options_.spp; },
+                [&](int tile, const auto& stop, RenderStatistics& part) { return run_tile(tile, target, stop, part); });
             if (!complete) break;
             done = target;
             if (progress_.cancelled() || out_of_time()) break;
@@ -114,7 +121,8 @@ private:
                 for (uint32_t& n : each) n = std::min(n, most);
                 return run_halves(tile, each, stop, part);
             };
-            complete = run_wave(going, first, [&](double wave_done) { return before + wave_done * 0.2 * (1 - before); }, run);
+            complete = run_wave(
+                going, first, [&](double wave_done) { return before + wave_done * 0.2 * (1 - before); }, run);
             first = false;
             if (!complete) break;
             exhausted_ = limited;
@@ -129,25 +137,28 @@ private:
         total_.spp = least_drawn();
     }
 
-    /// Draws what `run` does of each tile, unless time runs out (but not in the first wave: a picture has a sample everywhere)
-    /// or the user stops it; false then. fraction_done: of the picture from that of the wave.
+    /// Draws what `run` does of each tile, unless time runs out (but not in the first wave: a picture has a sample
+    /// everywhere) or the user stops it; false then. fraction_done: of the picture from that of the wave.
     template <class Fraction, class Run>
     bool run_wave(const std::vector<int>& tiles, bool first, const Fraction& fraction_done, const Run& run)
     {
         std::atomic<int> finished{0};
         std::atomic<bool> complete{true};
         const auto stop = [&] { return progress_.cancelled() || (!first && out_of_time()); };
-        tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t i) {
-            flush_subnormals();
-            RenderStatistics part;
-            if (stop() || !run(tiles[i], stop, part)) complete = false;
-            const int count = ++finished;
-            const std::lock_guard lock(mutex_);
-            total_.add(part);
-            const double by_samples = fraction_done(static_cast<double>(count) / static_cast<double>(tiles.size()));
-            const double by_time = options_.timeout > 0 ? seconds_since(start_) / options_.timeout : 0;
-            progress_.update("rendering", std::min(1.0, std::max(by_samples, by_time)));
-        }, tbb::simple_partitioner());
+        tbb::parallel_for(
+            size_t{0}, tiles.size(),
+            [&](size_t i) {
+                flush_subnormals();
+                RenderStatistics part;
+                if (stop() || !run(tiles[i], stop, part)) complete = false;
+                const int count = ++finished;
+                const std::lock_guard lock(mutex_);
+                total_.add(part);
+                const double by_samples = fraction_done(static_cast<double>(count) / static_cast<double>(tiles.size()));
+                const double by_time = options_.timeout > 0 ? seconds_since(start_) / options_.timeout : 0;
+                progress_.update("rendering", std::min(1.0, std::max(by_samples, by_time)));
+            },
+            tbb::simple_partitioner());
         return complete;
     }
 
@@ -155,7 +166,8 @@ private:
     template <class Stop, class F>
     bool each_pixel(int tile, const Stop& stop, const F& f) const
     {
-        const int x0 = film_.x0() + tile % film_.tile_columns() * Film::tile_size, y0 = film_.y0() + tile / film_.tile_columns() * Film::tile_size;
+        const int x0 = film_.x0() + tile % film_.tile_columns() * Film::tile_size,
+                  y0 = film_.y0() + tile / film_.tile_columns() * Film::tile_size;
         for (int y = y0; y < std::min(y0 + Film::tile_size, film_.y1()); ++y) {
             if (stop()) return false;
             for (int x = x0; x < std::min(x0 + Film::tile_size, film_.x1()); ++x) {
@@ -247,8 +259,8 @@ void RenderStatistics::add(const RenderStatistics& part)
     if (!first_non_finite) first_non_finite = part.first_non_finite;
 }
 
-PathResult render_sample(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter, int x, int y,
-                         uint32_t sample, const RenderOptions& options, std::vector<PathVertex>* trail)
+PathResult render_sample(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter, int x,
+                         int y, uint32_t sample, const RenderOptions& options, std::vector<PathVertex>* trail)
 {
     Sampler sampler(options.seed, static_cast<uint32_t>(x), static_cast<uint32_t>(y), sample);
     const double u1 = sampler.next(), u2 = sampler.next(), u3 = sampler.next(), u4 = sampler.next();
@@ -259,8 +271,8 @@ PathResult render_sample(const World& world, const Tracer& tracer, const Camera&
     return result;
 }
 
-RenderStatistics render(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter, Film& film,
-                        const RenderOptions& options, const Progress& progress)
+RenderStatistics render(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter,
+                        Film& film, const RenderOptions& options, const Progress& progress)
 {
     return Loop(world, tracer, camera, filter, film, options, progress).run();
 }

@@ -14,7 +14,8 @@ SceneDescription load_scene(const RenderJob& job)
     SceneDescription scene = read_scene(document, job.scene);
     if (job.size) std::tie(scene.film.width, scene.film.height) = *job.size;
     for (const Aov aov : job.aov) {
-        if (std::find(scene.film.aov.begin(), scene.film.aov.end(), aov) == scene.film.aov.end()) scene.film.aov.push_back(aov);
+        if (std::find(scene.film.aov.begin(), scene.film.aov.end(), aov) == scene.film.aov.end())
+            scene.film.aov.push_back(aov);
     }
     IntegratorDescription& integrator = scene.integrator;
     if (job.max_depth > 0) integrator.max_depth = job.max_depth;
@@ -47,19 +48,24 @@ RenderSetup::RenderSetup(const WorldBuilder& builder, std::shared_ptr<const Worl
 {
 }
 
-RenderSetup::RenderSetup(const WorldBuilder& builder, std::shared_ptr<const World> world, const RenderJob& job, int64_t bytes_before, const Stopwatch& watch)
-    : world_(std::move(world)), tracer_(builder.device(), *world_), camera_(make_camera(builder.scene(), world_->space)), filter_(builder.scene().film.filter),
-      options_(job.options), parts_(all_parts(builder, *world_, job.crop || job.pixel_bounds))
+RenderSetup::RenderSetup(const WorldBuilder& builder, std::shared_ptr<const World> world, const RenderJob& job,
+                         int64_t bytes_before, const Stopwatch& watch)
+    : world_(std::move(world)), tracer_(builder.device(), *world_),
+      camera_(make_camera(builder.scene(), world_->space)), filter_(builder.scene().film.filter), options_(job.options),
+      parts_(all_parts(builder, *world_, job.crop || job.pixel_bounds))
 {
-    parts_.push_back({"acceleration structure", true, "Embree", watch.seconds(), static_cast<uint64_t>(std::max<int64_t>(0, builder.device()->bytes() - bytes_before))});
+    parts_.push_back({"acceleration structure", true, "Embree", watch.seconds(),
+                      static_cast<uint64_t>(std::max<int64_t>(0, builder.device()->bytes() - bytes_before))});
     const SceneDescription& scene = builder.scene();
     const TransportPlan& plan = builder.plan();
     options_.path.max_depth = scene.integrator.max_depth;
     if (plan.has_proxies()) options_.path.explicit_grains = plan.explicit_grains;
     const PixelSize pixel = pixel_size(scene.camera, scene.film);
     options_.path.resolved = {plan.least_pixels * world_->space.length(pixel.width), plan.least_pixels * pixel.slope};
-    if (job.spp) options_.spp = *job.spp;
-    else if (options_.timeout > 0 || options_.error > 0) options_.spp = 1u << 30;
+    if (job.spp)
+        options_.spp = *job.spp;
+    else if (options_.timeout > 0 || options_.error > 0)
+        options_.spp = 1u << 30;
 }
 
 } // namespace scree

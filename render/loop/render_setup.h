@@ -1,8 +1,8 @@
 #pragma once
 
+#include "render/build/world_builder.h"
 #include "render/film/filter.h"
 #include "render/loop/render_job.h"
-#include "render/build/world_builder.h"
 
 #include <memory>
 #include <vector>
@@ -29,7 +29,8 @@ public:
     const std::vector<PartReport>& parts() const { return parts_; } ///< all that was built or skipped
 
 private:
-    RenderSetup(const WorldBuilder& builder, std::shared_ptr<const World> world, const RenderJob& job, int64_t bytes_before, const Stopwatch& watch);
+    RenderSetup(const WorldBuilder& builder, std::shared_ptr<const World> world, const RenderJob& job,
+                int64_t bytes_before, const Stopwatch& watch);
 
     std::shared_ptr<const World> world_;
     Tracer tracer_;

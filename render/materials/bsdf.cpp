@@ -1,8 +1,8 @@
 #include "render/materials/bsdf.h"
 
+#include "base/warp.h"
 #include "render/materials/fresnel.h"
 #include "render/materials/microsurface_walk.h"
-#include "base/warp.h"
 
 namespace scree {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/materials/material.h"
 #include "base/sampler.h"
+#include "render/materials/material.h"
 
 namespace scree {
 
@@ -11,8 +11,8 @@ namespace scree {
 
 struct BsdfSample {
     V3d wi{0};
-    Color weight{0};      ///< f |cos| / density
-    double pdf = 0;     ///< pdf_bsdf(wo, wi); 0 for a delta direction
+    Color weight{0}; ///< f |cos| / density
+    double pdf = 0; ///< pdf_bsdf(wo, wi); 0 for a delta direction
     bool valid = false;
 };
 

@@ -40,13 +40,18 @@ inline double fresnel_conductor(double cos_i, double eta, double k)
 
 inline Color fresnel_conductor(double cos_i, const Color& eta, const Color& k)
 {
-    return {static_cast<Real>(fresnel_conductor(cos_i, eta.x, k.x)), static_cast<Real>(fresnel_conductor(cos_i, eta.y, k.y)),
+    return {static_cast<Real>(fresnel_conductor(cos_i, eta.x, k.x)),
+            static_cast<Real>(fresnel_conductor(cos_i, eta.y, k.y)),
             static_cast<Real>(fresnel_conductor(cos_i, eta.z, k.z))};
 }
 
 inline V3d reflect(const V3d& w, const V3d& m) { return 2 * w.dot(m) * m - w; }
 
-/// Direction of w (pointing away from the interface) refracted through m (w.m > 0); eta = n_t / n_i, cos_t from Fresnel.
-inline V3d refract(const V3d& w, const V3d& m, double eta, double cos_t) { return (w.dot(m) / eta - cos_t) * m - w / eta; }
+/// Direction of w (pointing away from the interface) refracted through m (w.m > 0); eta = n_t / n_i, cos_t from
+/// Fresnel.
+inline V3d refract(const V3d& w, const V3d& m, double eta, double cos_t)
+{
+    return (w.dot(m) / eta - cos_t) * m - w / eta;
+}
 
 } // namespace scree

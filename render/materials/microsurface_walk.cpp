@@ -15,10 +15,10 @@ V3d flip(const V3d& w) { return {w.x, w.y, -w.z}; }
 struct Walk {
     const Material& material;
     const Ggx ggx;
-    const double eta;    // -z over +z
-    V3d w;               // direction of travel, in the frame of the side the walk is on
-    double c = 1;        // in the frame of that side
-    bool below = false;  // on the side of -z
+    const double eta; // -z over +z
+    V3d w; // direction of travel, in the frame of the side the walk is on
+    double c = 1; // in the frame of that side
+    bool below = false; // on the side of -z
     Color weight{1};
 
     /// Flies to the next facet; false when the walk leaves the microsurface.
@@ -73,7 +73,8 @@ struct Walk {
                 return fresnel_conductor(std::min(1.0, cosine), material.eta, material.k) * static_cast<Real>(density);
             }
             double cos_t;
-            return Color(static_cast<Real>(density * fresnel_dielectric(std::min(1.0, cosine), relative_index(), cos_t)));
+            return Color(
+                static_cast<Real>(density * fresnel_dielectric(std::min(1.0, cosine), relative_index(), cos_t)));
         }
         // Walter et al. 2007, eq. 16 and 17: m is along -(in + eta out), here turned to the side of `in`.
         const double n = relative_index();
@@ -111,8 +112,8 @@ Color estimate_walk(const Material& material, double eta, const V3d& wo, const V
     Walk walk{material, {material.alpha}, eta, -wo};
     Color sum(0);
     while (walk.fly(sampler.next())) {
-        const V3d out = walk.below ? flip(wi) : wi;           // in the frame of the walk's side
-        const V3d out_own = to_below ? flip(wi) : wi;         // in the frame of its own side: points up
+        const V3d out = walk.below ? flip(wi) : wi; // in the frame of the walk's side
+        const V3d out_own = to_below ? flip(wi) : wi; // in the frame of its own side: points up
         const bool through = walk.below != to_below;
         const double c_out = through ? 1 - walk.c : walk.c;
         const double escape = std::pow(c_out, walk.ggx.lambda(out_own));

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/materials/material.h"
 #include "base/sampler.h"
+#include "render/materials/material.h"
 
 namespace scree {
 
@@ -10,8 +10,8 @@ namespace scree {
 ///
 /// Weights are those of basic radiance L / n^2, which an interface conserves.
 struct WalkSample {
-    V3d wi;         ///< z < 0: transmitted
-    Color weight{1};  ///< 1 for a dielectric, the product of Fresnel reflectances for a conductor
+    V3d wi; ///< z < 0: transmitted
+    Color weight{1}; ///< 1 for a dielectric, the product of Fresnel reflectances for a conductor
     bool valid = true;
 };
 

@@ -18,7 +18,8 @@ using Values = std::array<float, 3>;
 
 Values values_of(float v) { return {v, v, v}; }
 Values values_of(double v) { return values_of(static_cast<float>(v)); }
-template <class T> Values values_of(const openvdb::math::Vec3<T>& v)
+template <class T>
+Values values_of(const openvdb::math::Vec3<T>& v)
 {
     return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
@@ -45,7 +46,8 @@ struct Brick {
     size_t content;
 };
 
-template <class GridType> class Builder {
+template <class GridType>
+class Builder {
 public:
     Builder(const GridType& grid, const FieldLimits& limits, bool nearest, std::string place, const Progress& progress)
         : grid_(grid), limits_(limits), place_(std::move(place)), progress_(progress), reach_(nearest ? 0 : 1)
@@ -77,9 +79,13 @@ private:
     {
         for (int plane = 0; plane < field_.planes; ++plane) {
             const double x = v[static_cast<size_t>(plane)];
-            const bool good = limits_.open ? x > limits_.low && x < limits_.high : x >= limits_.low && x <= limits_.high;
+            const bool good =
+                limits_.open ? x > limits_.low && x < limits_.high : x >= limits_.low && x <= limits_.high;
             if (!good || !std::isfinite(x))
-                throw InputError(place_, fmt::format("{} of {} at voxel ({}, {}, {})", limits_.name, x, where.x(), where.y(), where.z()), limits_.expected);
+                throw InputError(
+                    place_,
+                    fmt::format("{} of {} at voxel ({}, {}, {})", limits_.name, x, where.x(), where.y(), where.z()),
+                    limits_.expected);
         }
     }
 
@@ -137,13 +143,17 @@ private:
             const uint64_t bricks = field_.root_size[k] << (3 * field_.levels);
             constexpr int32_t farthest = 1 << 26;
             if (bricks > farthest || all.lo[k] < -farthest || all.hi[k] > farthest)
-                throw InputError(place_, fmt::format("a grid of {} from voxel {} to {}", limits_.name, int64_t{all.lo[k]} * width, int64_t{all.hi[k]} * width), "voxels within 2^29 of 0");
+                throw InputError(place_,
+                                 fmt::format("a grid of {} from voxel {} to {}", limits_.name,
+                                             int64_t{all.lo[k]} * width, int64_t{all.hi[k]} * width),
+                                 "voxels within 2^29 of 0");
             field_.bricks[k] = static_cast<int32_t>(bricks);
         }
     }
 
     /// Deals the items out to the children of a region: n children along each axis, each 8^level bricks wide.
-    std::vector<Items> deal(const Items& items, const std::array<int32_t, 3>& low, int level, const std::array<size_t, 3>& n) const
+    std::vector<Items> deal(const Items& items, const std::array<int32_t, 3>& low, int level,
+                            const std::array<size_t, 3>& n) const
     {
         std::vector<Items> children(n[0] * n[1] * n[2]);
         for (const uint32_t index : items) {
@@ -152,7 +162,8 @@ private:
             for (size_t k = 0; k < 3; ++k) {
                 const int shift = 3 * level;
                 from[k] = static_cast<size_t>(std::max(0, (range.lo[k] >> shift) - (low[k] >> shift)));
-                to[k] = std::min(n[k], static_cast<size_t>(std::max(0, (range.hi[k] >> shift) - (low[k] >> shift) + 1)));
+                to[k] =
+                    std::min(n[k], static_cast<size_t>(std::max(0, (range.hi[k] >> shift) - (low[k] >> shift) + 1)));
             }
             for (size_t i = from[0]; i < to[0]; ++i)
                 for (size_t j = from[1]; j < to[1]; ++j)
@@ -171,7 +182,8 @@ private:
         const int32_t size = 1 << (3 * field_.levels);
         for (size_t c = 0; c < children.size(); ++c)
             field_.root[c] = entry(children[c], field_.levels,
-                                   {origin_[0] + static_cast<int32_t>(c / n[2] / n[1]) * size, origin_[1] + static_cast<int32_t>(c / n[2] % n[1]) * size,
+                                   {origin_[0] + static_cast<int32_t>(c / n[2] / n[1]) * size,
+                                    origin_[1] + static_cast<int32_t>(c / n[2] % n[1]) * size,
                                     origin_[2] + static_cast<int32_t>(c % n[2]) * size});
     }
 
@@ -185,7 +197,9 @@ private:
     /// Whether all corners of the region's cells lie in tiles of one value.
     bool is_constant(const Items& items, const std::array<int32_t, 3>& low, int32_t size) const
     {
-        CoordBBox region(Coord(low[0] * width, low[1] * width, low[2] * width), Coord((low[0] + size) * width, (low[1] + size) * width, (low[2] + size) * width).offsetBy(reach_ - 1));
+        CoordBBox region(
+            Coord(low[0] * width, low[1] * width, low[2] * width),
+            Coord((low[0] + size) * width, (low[1] + size) * width, (low[2] + size) * width).offsetBy(reach_ - 1));
         uint64_t covered = 0;
         for (const uint32_t index : items) {
             const Item& item = items_[index];
@@ -217,8 +231,10 @@ private:
         std::array<uint32_t, 512> node{};
         const int32_t child = size / 8;
         for (size_t c = 0; c < 512; ++c)
-            node[c] = entry(children[c], level - 1,
-                            {low[0] + static_cast<int32_t>(c >> 6) * child, low[1] + static_cast<int32_t>(c >> 3 & 7) * child, low[2] + static_cast<int32_t>(c & 7) * child});
+            node[c] =
+                entry(children[c], level - 1,
+                      {low[0] + static_cast<int32_t>(c >> 6) * child, low[1] + static_cast<int32_t>(c >> 3 & 7) * child,
+                       low[2] + static_cast<int32_t>(c & 7) * child});
         field_.nodes.push_back(node);
         return static_cast<uint32_t>(field_.nodes.size() - 1) << 2 | BrickField::entry_node;
     }
@@ -237,7 +253,8 @@ private:
             ++active;
         }
         if (active == 0) return values_of(value);
-        return {static_cast<float>(sum[0] / active), static_cast<float>(sum[1] / active), static_cast<float>(sum[2] / active)};
+        return {static_cast<float>(sum[0] / active), static_cast<float>(sum[1] / active),
+                static_cast<float>(sum[2] / active)};
     }
 
     void fill_bricks()
@@ -250,7 +267,9 @@ private:
             if (progress_.cancelled()) return;
             fill_brick(bricks_[i], values.data() + i * size, supports[i]);
             const uint64_t n = ++done;
-            if (n % 4096 == 0) progress_.update("grid of " + limits_.name, static_cast<double>(n) / static_cast<double>(bricks_.size()));
+            if (n % 4096 == 0)
+                progress_.update("grid of " + limits_.name,
+                                 static_cast<double>(n) / static_cast<double>(bricks_.size()));
         });
         if (progress_.cancelled()) throw Cancelled();
         // Constant bricks keep one value: the others move up.
@@ -288,7 +307,8 @@ private:
                     const bool matters = x < width + reach_ && y < width + reach_ && z < width + reach_;
                     const Values v = matters ? corner(accessor, low.offsetBy(x, y, z)) : field_.background;
                     const size_t at = static_cast<size_t>((x * BrickField::stride + y) * BrickField::stride + z);
-                    for (size_t plane = 0; plane < static_cast<size_t>(field_.planes); ++plane) values[plane * BrickField::corners + at] = v[plane];
+                    for (size_t plane = 0; plane < static_cast<size_t>(field_.planes); ++plane)
+                        values[plane * BrickField::corners + at] = v[plane];
                     if (!matters) continue;
                     for (size_t k = 0; k < 3; ++k) {
                         content.low[k] = std::min(content.low[k], v[k]);
@@ -299,7 +319,8 @@ private:
         content.constant = content.low == content.high;
         if (used.isEmpty()) return;
         // Cells beside a corner reach one on either side of it; of the nearest voxel, one on.
-        const V3d place((brick[0] - origin_[0]) * width, (brick[1] - origin_[1]) * width, (brick[2] - origin_[2]) * width);
+        const V3d place((brick[0] - origin_[0]) * width, (brick[1] - origin_[1]) * width,
+                        (brick[2] - origin_[2]) * width);
         support = Imath::Box3d(place + used.min - V3d(reach_), place + used.max + V3d(1));
         for (int k = 0; k < 3; ++k) {
             support.min[k] = std::max(support.min[k], place[k]);
@@ -312,16 +333,20 @@ private:
         const auto is_background = [&](uint32_t e) {
             if ((e & 3) == BrickField::entry_content) {
                 const BrickField::Content& content = field_.contents[e >> 2];
-                return content.constant && std::equal(content.low.begin(), content.low.begin() + field_.planes, field_.background.begin());
+                return content.constant &&
+                       std::equal(content.low.begin(), content.low.begin() + field_.planes, field_.background.begin());
             }
-            return (e & 3) == BrickField::entry_node && std::ranges::all_of(field_.nodes[e >> 2], [](uint32_t child) { return child == BrickField::entry_empty; });
+            return (e & 3) == BrickField::entry_node && std::ranges::all_of(field_.nodes[e >> 2], [](uint32_t child) {
+                       return child == BrickField::entry_empty;
+                   });
         };
         for (auto& node : field_.nodes)
             for (uint32_t& e : node)
                 if (is_background(e)) e = BrickField::entry_empty;
         for (uint32_t& e : field_.root)
             if (is_background(e)) e = BrickField::entry_empty;
-        if (std::ranges::all_of(field_.root, [](uint32_t e) { return e == BrickField::entry_empty; })) field_.contents.clear();
+        if (std::ranges::all_of(field_.root, [](uint32_t e) { return e == BrickField::entry_empty; }))
+            field_.contents.clear();
     }
 
     const GridType& grid_;
@@ -336,8 +361,8 @@ private:
 };
 
 template <class GridType>
-std::optional<BrickField> build_as(const openvdb::GridBase& grid, const FieldLimits& limits, bool nearest, const std::string& place,
-                                   const Progress& progress, Coord& origin)
+std::optional<BrickField> build_as(const openvdb::GridBase& grid, const FieldLimits& limits, bool nearest,
+                                   const std::string& place, const Progress& progress, Coord& origin)
 {
     if (!grid.isType<GridType>()) return std::nullopt;
     return Builder<GridType>(static_cast<const GridType&>(grid), limits, nearest, place, progress).build(origin);
@@ -345,8 +370,8 @@ std::optional<BrickField> build_as(const openvdb::GridBase& grid, const FieldLim
 
 } // namespace
 
-BrickField make_brick_field(const openvdb::GridBase& grid, const FieldLimits& limits, bool nearest, const std::string& place,
-                            const Progress& progress, Coord& origin)
+BrickField make_brick_field(const openvdb::GridBase& grid, const FieldLimits& limits, bool nearest,
+                            const std::string& place, const Progress& progress, Coord& origin)
 {
     std::optional<BrickField> field = build_as<openvdb::FloatGrid>(grid, limits, nearest, place, progress, origin);
     if (!field) field = build_as<openvdb::DoubleGrid>(grid, limits, nearest, place, progress, origin);

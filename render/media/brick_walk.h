@@ -9,9 +9,10 @@ namespace scree {
 /// A ray in field coordinates, with the parameter of the ray it was made from.
 struct FieldRay {
     V3d o, d;
-    V3d inverse;                  ///< 1 / d, or what stands for infinity where d is next to 0
-    std::array<int32_t, 3> step;  ///< sign of d; 0 where d is next to 0: the ray does not get anywhere along that axis
-    std::array<int32_t, 3> ahead; ///< the face where it leaves a cell, in cells from its low one; where step is 0 one beyond: never
+    V3d inverse; ///< 1 / d, or what stands for infinity where d is next to 0
+    std::array<int32_t, 3> step; ///< sign of d; 0 where d is next to 0: the ray does not get anywhere along that axis
+    std::array<int32_t, 3>
+        ahead; ///< the face where it leaves a cell, in cells from its low one; where step is 0 one beyond: never
 
     FieldRay(const V3d& origin, const V3d& direction) : o(origin), d(direction)
     {
@@ -43,8 +44,8 @@ inline bool FieldRay::clip(const Imath::Box3d& box, double& t0, double& t1) cons
     return t0 < t1;
 }
 
-/// Where a ray leaves the cell of `size` units that begins at low: through the faces whose distance is the exit (two or three
-/// of them in an edge or corner).
+/// Where a ray leaves the cell of `size` units that begins at low: through the faces whose distance is the exit (two or
+/// three of them in an edge or corner).
 ///
 /// Every step moves on by a cell along an axis at least, and never back: rounding cannot make a walk loop.
 struct RayStep {
@@ -53,28 +54,33 @@ struct RayStep {
 
     RayStep(const FieldRay& ray, const std::array<int32_t, 3>& low, int32_t size)
     {
-        for (size_t k = 0; k < 3; ++k) faces[k] = (low[k] + ray.ahead[k] * size - ray.o[static_cast<int>(k)]) * ray.inverse[static_cast<int>(k)];
+        for (size_t k = 0; k < 3; ++k)
+            faces[k] = (low[k] + ray.ahead[k] * size - ray.o[static_cast<int>(k)]) * ray.inverse[static_cast<int>(k)];
         exit = std::min(std::min(faces[0], faces[1]), faces[2]);
     }
     bool leaves_through(size_t axis) const { return faces[axis] <= exit; }
 };
 
-/// Calls visit(content index, low corner in cells, t0, t1) for each region along t0..t1 that is not empty, in order, until it
-/// returns true.
-template <class Visit> void walk_bricks(const BrickField& field, const FieldRay& ray, double t0, double t1, Visit&& visit)
+/// Calls visit(content index, low corner in cells, t0, t1) for each region along t0..t1 that is not empty, in order,
+/// until it returns true.
+template <class Visit>
+void walk_bricks(const BrickField& field, const FieldRay& ray, double t0, double t1, Visit&& visit)
 {
     if (field.bricks[0] == 0 || !ray.clip(field.support, t0, t1)) return;
     std::array<int32_t, 3> brick;
     constexpr double inverse_width = 1.0 / BrickField::width;
     const auto brick_at = [&](const V3d& p, int k, int32_t low, int32_t high) {
-        return static_cast<int32_t>(std::min(std::max(std::floor(p[k] * inverse_width), double{0} + low), double{0} + high));
+        return static_cast<int32_t>(
+            std::min(std::max(std::floor(p[k] * inverse_width), double{0} + low), double{0} + high));
     };
     const V3d start = ray.at(t0);
-    for (int k = 0; k < 3; ++k) brick[static_cast<size_t>(k)] = brick_at(start, k, 0, field.bricks[static_cast<size_t>(k)] - 1);
+    for (int k = 0; k < 3; ++k)
+        brick[static_cast<size_t>(k)] = brick_at(start, k, 0, field.bricks[static_cast<size_t>(k)] - 1);
     for (;;) {
         const BrickField::Region region = field.find(brick);
         const int32_t mask = ~(region.size - 1);
-        const std::array<int32_t, 3> low{(brick[0] & mask) * BrickField::width, (brick[1] & mask) * BrickField::width, (brick[2] & mask) * BrickField::width};
+        const std::array<int32_t, 3> low{(brick[0] & mask) * BrickField::width, (brick[1] & mask) * BrickField::width,
+                                         (brick[2] & mask) * BrickField::width};
         const RayStep step(ray, low, region.size * BrickField::width);
         const double t = std::min(std::max(step.exit, t0), t1);
         if (region.content >= 0 && visit(region.content, low, t0, t)) return;
@@ -84,8 +90,12 @@ template <class Visit> void walk_bricks(const BrickField& field, const FieldRay&
             for (int k = 0; k < 3; ++k) {
                 const size_t a = static_cast<size_t>(k);
                 const int32_t first = brick[a] & mask, last = first + region.size - 1;
-                if (step.leaves_through(a)) brick[a] = ray.step[a] > 0 ? last : first;
-                else brick[a] = ray.step[a] > 0 ? brick_at(p, k, brick[a], last) : ray.step[a] < 0 ? brick_at(p, k, first, brick[a]) : brick[a];
+                if (step.leaves_through(a))
+                    brick[a] = ray.step[a] > 0 ? last : first;
+                else
+                    brick[a] = ray.step[a] > 0   ? brick_at(p, k, brick[a], last)
+                               : ray.step[a] < 0 ? brick_at(p, k, first, brick[a])
+                                                 : brick[a];
             }
         }
         bool inside = true;
@@ -98,15 +108,16 @@ template <class Visit> void walk_bricks(const BrickField& field, const FieldRay&
     }
 }
 
-/// Calls visit(low corner of a cell, t0, t1) for each cell of the brick that begins at `low`, until it returns true; true
-/// if it did.
+/// Calls visit(low corner of a cell, t0, t1) for each cell of the brick that begins at `low`, until it returns true;
+/// true if it did.
 template <class Visit>
 bool walk_cells(const FieldRay& ray, const std::array<int32_t, 3>& low, double t0, double t1, Visit&& visit)
 {
     std::array<int32_t, 3> cell;
     const V3d start = ray.at(t0);
     for (size_t k = 0; k < 3; ++k)
-        cell[k] = low[k] + static_cast<int32_t>(std::min(std::max(std::floor(start[static_cast<int>(k)] - low[k]), 0.0), double{BrickField::width - 1}));
+        cell[k] = low[k] + static_cast<int32_t>(std::min(std::max(std::floor(start[static_cast<int>(k)] - low[k]), 0.0),
+                                                         double{BrickField::width - 1}));
     for (;;) {
         const RayStep step(ray, cell, 1);
         const double t = std::min(std::max(step.exit, t0), t1);

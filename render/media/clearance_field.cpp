@@ -9,9 +9,9 @@ namespace scree {
 
 namespace {
 
-constexpr double least_square = 8;   ///< in voxels: below, the interpolation is not tried
+constexpr double least_square = 8; ///< in voxels: below, the interpolation is not tried
 constexpr size_t entry_bits = 21;
-constexpr double most_lost = 0.03;   ///< of the square, in the middle of an octant; elsewhere it may be some more
+constexpr double most_lost = 0.03; ///< of the square, in the middle of an octant; elsewhere it may be some more
 
 float round_down(double x)
 {
@@ -21,38 +21,49 @@ float round_down(double x)
 
 } // namespace
 
-ClearanceField::ClearanceField(std::span<const TriangleView> meshes, const Imath::Box3d& box, const Progress& progress, int voxels)
+ClearanceField::ClearanceField(std::span<const TriangleView> meshes, const Imath::Box3d& box, const Progress& progress,
+                               int voxels)
 {
     if (voxels < 1 || voxels > 1024) throw InputError("clearance field", fmt::format("{} voxels", voxels), "1 to 1024");
     const V3d extent = box.size();
     const double longest = std::max({extent.x, extent.y, extent.z});
-    if (box.isEmpty() || !(longest > 0) || !std::isfinite(longest)) throw InputError("clearance field", "a box that is empty or infinite", "a finite box");
+    if (box.isEmpty() || !(longest > 0) || !std::isfinite(longest))
+        throw InputError("clearance field", "a box that is empty or infinite", "a finite box");
     scale_ = std::ldexp(1.0, -std::ilogb(longest));
     const V3d lo = box.min * scale_, hi = box.max * scale_;
-    const double farthest = std::max({std::abs(lo.x), std::abs(lo.y), std::abs(lo.z), std::abs(hi.x), std::abs(hi.y), std::abs(hi.z)});
-    if (!(farthest < 0x1p50)) throw InputError("clearance field", "a box that is 2^50 times its size from the origin", "a box that can be told from a point");
+    const double farthest =
+        std::max({std::abs(lo.x), std::abs(lo.y), std::abs(lo.z), std::abs(hi.x), std::abs(hi.y), std::abs(hi.z)});
+    if (!(farthest < 0x1p50))
+        throw InputError("clearance field", "a box that is 2^50 times its size from the origin",
+                         "a box that can be told from a point");
     origin_ = box.min;
     voxel_ = longest / voxels;
     per_length_ = 1 / voxel_;
-    // What interpolation loses to rounding is below 2^-46 of the squares it goes between, which are alike where it is used.
+    // What interpolation loses to rounding is below 2^-46 of the squares it goes between, which are alike where it is
+    // used.
     rounded_voxel_ = voxel_ * (1 - 0x1p-40);
-    for (int k = 0; k < 3; ++k) size_[static_cast<size_t>(k)] = std::clamp(static_cast<int>(std::ceil(extent[k] * per_length_)), 1, voxels);
+    for (int k = 0; k < 3; ++k)
+        size_[static_cast<size_t>(k)] = std::clamp(static_cast<int>(std::ceil(extent[k] * per_length_)), 1, voxels);
     step_[1] = static_cast<size_t>(size_[2]) + 1;
     step_[0] = step_[1] * (static_cast<size_t>(size_[1]) + 1);
     tree_ = TriangleTree(meshes, scale_, progress);
-    if (tree_.empty()) largest_ = std::numeric_limits<double>::infinity();
-    else fill_squares(progress);
+    if (tree_.empty())
+        largest_ = std::numeric_limits<double>::infinity();
+    else
+        fill_squares(progress);
     progress.update("clearance", 1);
 }
 
 double ClearanceField::near(const V3d& place, int x, int y, int z, bool is_rough, double least) const
 {
-    std::atomic<uint64_t>& word = entries_[static_cast<size_t>(x) * step_[0] + static_cast<size_t>(y) * step_[1] + static_cast<size_t>(z)];
+    std::atomic<uint64_t>& word =
+        entries_[static_cast<size_t>(x) * step_[0] + static_cast<size_t>(y) * step_[1] + static_cast<size_t>(z)];
     uint64_t packed = word.load(std::memory_order_relaxed);
     if (packed == 0) {
         const V3d middle = (origin_ + V3d(x + 0.5, y + 0.5, z + 0.5) * voxel_) * scale_;
         // Half a diagonal, and what places and lattice are rounded by, at 2^50 boxes from the origin as well.
-        const double radius = (std::sqrt(0.75) * (1 + 0x1p-20)) * voxel_ * scale_ + 0x1p-48 * (std::abs(middle.x) + std::abs(middle.y) + std::abs(middle.z));
+        const double radius = (std::sqrt(0.75) * (1 + 0x1p-20)) * voxel_ * scale_ +
+                              0x1p-48 * (std::abs(middle.x) + std::abs(middle.y) + std::abs(middle.z));
         const TriangleTree::Entries found = tree_.entries(middle, radius);
         packed = uint64_t{1} << 63;
         for (size_t k = 0; k < found.size(); ++k) packed |= uint64_t{found[k]} << (entry_bits * k);
@@ -61,25 +72,30 @@ double ClearanceField::near(const V3d& place, int x, int y, int z, bool is_rough
     constexpr uint64_t mask = (uint64_t{1} << entry_bits) - 1;
     TriangleTree::Entries from;
     for (size_t k = 0; k < from.size(); ++k) from[k] = static_cast<uint32_t>(packed >> (entry_bits * k) & mask);
-    return (is_rough ? tree_.rough_distance(place * scale_, from, least * scale_) : tree_.distance(place * scale_, from)) / scale_;
+    return (is_rough ? tree_.rough_distance(place * scale_, from, least * scale_)
+                     : tree_.distance(place * scale_, from)) /
+           scale_;
 }
 
 void ClearanceField::fill_squares(const Progress& progress)
 {
-    const std::array<size_t, 3> count{static_cast<size_t>(size_[0]) + 1, static_cast<size_t>(size_[1]) + 1, static_cast<size_t>(size_[2]) + 1};
+    const std::array<size_t, 3> count{static_cast<size_t>(size_[0]) + 1, static_cast<size_t>(size_[1]) + 1,
+                                      static_cast<size_t>(size_[2]) + 1};
     squares_.assign(count[0] * count[1] * count[2], 0);
     entries_ = std::make_unique<std::atomic<uint64_t>[]>(squares_.size());
     std::vector<V3f> nearest(squares_.size()); // to lattice points, in voxels from the origin
     const double per_voxel = per_length_ / scale_;
     const V3d first = origin_ * scale_;
     // Lattice points are rounded, and places are found in their voxels up to rounding.
-    const double rounding = 0x1p-40 + 0x1p-50 * per_voxel * std::max({std::abs(first.x), std::abs(first.y), std::abs(first.z), 1.0});
+    const double rounding =
+        0x1p-40 + 0x1p-50 * per_voxel * std::max({std::abs(first.x), std::abs(first.y), std::abs(first.z), 1.0});
     tbb::parallel_for(size_t{0}, count[0] * count[1], [&](size_t line) {
         if (progress.cancelled()) return;
         const size_t x = line / count[1], y = line % count[1];
         uint32_t block = TriangleTree::none;
         for (size_t z = 0; z < count[2]; ++z) {
-            const V3d index(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)), place = (origin_ + index * voxel_) * scale_;
+            const V3d index(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)),
+                place = (origin_ + index * voxel_) * scale_;
             const double distance = std::max(0.0, tree_.distance(place, block) * per_voxel - rounding);
             squares_[line * count[2] + z] = round_down(distance * distance * (1 - 0x1p-50));
             nearest[line * count[2] + z] = V3f((tree_.nearest_point(block, place) - first) * per_voxel);
@@ -114,7 +130,8 @@ void ClearanceField::fill_squares(const Progress& progress)
         }
     });
     if (progress.cancelled()) throw Cancelled();
-    largest_ = (std::sqrt(double{*std::ranges::max_element(squares_)}) + std::sqrt(3.0)) * voxel_; // a place may lie between those of the lattice
+    largest_ = (std::sqrt(double{*std::ranges::max_element(squares_)}) + std::sqrt(3.0)) *
+               voxel_; // a place may lie between those of the lattice
     for (size_t i = 0; i < squares_.size(); ++i)
         if (!tight[i]) squares_[i] = -squares_[i];
 }

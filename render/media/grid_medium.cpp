@@ -15,7 +15,8 @@ using Cell = std::array<int32_t, 3>;
 
 /// The density along a piece of a ray in one cell: a cubic in 0..1 times its length (three linear factors).
 ///
-/// From its values at 0, 1/3, 2/3 and 1. Its integral is Simpson's 3/8 rule, exact for cubics and a sum of what is not negative.
+/// From its values at 0, 1/3, 2/3 and 1. Its integral is Simpson's 3/8 rule, exact for cubics and a sum of what is not
+/// negative.
 struct CubicDensity {
     std::array<double, 4> f;
     double length;
@@ -46,15 +47,16 @@ struct CubicDensity {
 private:
     std::array<double, 4> coefficients() const
     {
-        return {f[0], (-11 * f[0] + 18 * f[1] - 9 * f[2] + 2 * f[3]) / 2, (18 * f[0] - 45 * f[1] + 36 * f[2] - 9 * f[3]) / 2,
-                (-9 * f[0] + 27 * f[1] - 27 * f[2] + 9 * f[3]) / 2};
+        return {f[0], (-11 * f[0] + 18 * f[1] - 9 * f[2] + 2 * f[3]) / 2,
+                (18 * f[0] - 45 * f[1] + 36 * f[2] - 9 * f[3]) / 2, (-9 * f[0] + 27 * f[1] - 27 * f[2] + 9 * f[3]) / 2};
     }
 };
 
 class Walk {
 public:
     Walk(const GridMediumData& medium, const V3d& o, const V3d& d)
-        : medium_(medium), field_(medium.density.field), ray_(medium.density.to_field.point(o), medium.density.to_field.vector(d))
+        : medium_(medium), field_(medium.density.field),
+          ray_(medium.density.to_field.point(o), medium.density.to_field.vector(d))
     {
     }
 
@@ -73,11 +75,15 @@ public:
 
 private:
     const DensityRegion& regions(int32_t index) const { return medium_.regions[static_cast<size_t>(index)]; }
-    double sigma_at(const DensityRegion& region, const Cell& low, const V3d& p) const { return medium_.scale[0] * field_.at_brick(region.offset, low, p); }
+    double sigma_at(const DensityRegion& region, const Cell& low, const V3d& p) const
+    {
+        return medium_.scale[0] * field_.at_brick(region.offset, low, p);
+    }
     Sigma sigmas_at(const DensityRegion& region, const Cell& low, const V3d& p) const
     {
         Sigma density{field_.at_brick(region.offset, low, p), 0, 0};
-        for (size_t plane = 1; plane < static_cast<size_t>(field_.planes); ++plane) density[plane] = field_.at_brick(region.offset + plane * BrickField::corners, low, p);
+        for (size_t plane = 1; plane < static_cast<size_t>(field_.planes); ++plane)
+            density[plane] = field_.at_brick(region.offset + plane * BrickField::corners, low, p);
         return medium_.sigma_of(density);
     }
 
@@ -92,12 +98,16 @@ private:
     CubicDensity cubic(const DensityRegion& region, const Cell& low, const Cell& cell, double t0, double t1) const
     {
         const std::array<V3d, 4> p = nodes(cell, t0, t1);
-        return {{sigma_at(region, low, p[0]), sigma_at(region, low, p[1]), sigma_at(region, low, p[2]), sigma_at(region, low, p[3])}, t1 - t0};
+        return {{sigma_at(region, low, p[0]), sigma_at(region, low, p[1]), sigma_at(region, low, p[2]),
+                 sigma_at(region, low, p[3])},
+                t1 - t0};
     }
-    std::array<CubicDensity, 3> cubics(const DensityRegion& region, const Cell& low, const Cell& cell, double t0, double t1) const
+    std::array<CubicDensity, 3> cubics(const DensityRegion& region, const Cell& low, const Cell& cell, double t0,
+                                       double t1) const
     {
         const std::array<V3d, 4> p = nodes(cell, t0, t1);
-        const std::array<Sigma, 4> f{sigmas_at(region, low, p[0]), sigmas_at(region, low, p[1]), sigmas_at(region, low, p[2]), sigmas_at(region, low, p[3])};
+        const std::array<Sigma, 4> f{sigmas_at(region, low, p[0]), sigmas_at(region, low, p[1]),
+                                     sigmas_at(region, low, p[2]), sigmas_at(region, low, p[3])};
         std::array<CubicDensity, 3> result;
         for (size_t c = 0; c < 3; ++c) result[c] = {{f[0][c], f[1][c], f[2][c], f[3][c]}, t1 - t0};
         return result;
@@ -268,7 +278,8 @@ Color Walk::chromatic_transmittance(double t0, double t1, Sampler& sampler) cons
             from += draw_optical_depth(sampler) / residual;
             if (!(from < to)) return false;
             const Sigma sigma = sigmas_at(region, low, ray_.at(from));
-            for (size_t c = 0; c < 3; ++c) left[c] *= 1 - std::min(1.0, std::max(0.0, (sigma[c] - least[c]) / residual));
+            for (size_t c = 0; c < 3; ++c)
+                left[c] *= 1 - std::min(1.0, std::max(0.0, (sigma[c] - least[c]) / residual));
             if (is_lost()) return true;
         }
     });
@@ -279,12 +290,14 @@ Color Walk::chromatic_transmittance(double t0, double t1, Sampler& sampler) cons
 
 GridMedium::GridMedium(std::shared_ptr<const GridMediumData> data) : data_(std::move(data)) {}
 
-MediumEvent GridMedium::event(const V3d& o, const V3d& d, double t0, double t1, SpectralState& state, Sampler& sampler) const
+MediumEvent GridMedium::event(const V3d& o, const V3d& d, double t0, double t1, SpectralState& state,
+                              Sampler& sampler) const
 {
     MediumEvent event;
     const Walk walk(*data_, o, d);
     if (!walk.is_sound()) return event;
-    const std::optional<double> t = data_->achromatic ? walk.event(t0, t1, sampler) : walk.chromatic_event(t0, t1, state, sampler);
+    const std::optional<double> t =
+        data_->achromatic ? walk.event(t0, t1, sampler) : walk.chromatic_event(t0, t1, state, sampler);
     if (!t) return event;
     event.scattered = true;
     event.t = *t;
@@ -298,7 +311,8 @@ Color GridMedium::transmittance(const V3d& o, const V3d& d, double t0, double t1
 {
     const Walk walk(*data_, o, d);
     if (!walk.is_sound()) return Color(1);
-    return data_->achromatic ? Color(static_cast<Real>(walk.transmittance(t0, t1, sampler))) : walk.chromatic_transmittance(t0, t1, sampler);
+    return data_->achromatic ? Color(static_cast<Real>(walk.transmittance(t0, t1, sampler)))
+                             : walk.chromatic_transmittance(t0, t1, sampler);
 }
 
 Imath::Box3d GridMedium::bounds() const
@@ -307,7 +321,8 @@ Imath::Box3d GridMedium::bounds() const
     const Imath::Box3d& support = data_->density.field.support;
     if (support.isEmpty()) return bounds;
     for (int corner = 0; corner < 8; ++corner)
-        bounds.extendBy(data_->density.to_render.point(V3d((corner & 1 ? support.max : support.min).x, (corner & 2 ? support.max : support.min).y,
+        bounds.extendBy(data_->density.to_render.point(V3d((corner & 1 ? support.max : support.min).x,
+                                                           (corner & 2 ? support.max : support.min).y,
                                                            (corner & 4 ? support.max : support.min).z)));
     return bounds;
 }
@@ -323,14 +338,16 @@ double GridMedium::largest_sigma_t() const
 
 uint64_t GridMedium::bytes() const
 {
-    return sizeof(GridMediumData) + data_->density.field.bytes() + data_->albedo.field.bytes() + data_->g.field.bytes()
-         + data_->regions.capacity() * sizeof(DensityRegion) + data_->least.capacity() * sizeof(Sigma);
+    return sizeof(GridMediumData) + data_->density.field.bytes() + data_->albedo.field.bytes() +
+           data_->g.field.bytes() + data_->regions.capacity() * sizeof(DensityRegion) +
+           data_->least.capacity() * sizeof(Sigma);
 }
 
 double GridMedium::voxel() const
 {
     double edge = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 3; ++k) edge = std::min(edge, data_->density.to_render.vector(V3d(k == 0, k == 1, k == 2)).length());
+    for (int k = 0; k < 3; ++k)
+        edge = std::min(edge, data_->density.to_render.vector(V3d(k == 0, k == 1, k == 2)).length());
     return edge;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/media/medium_event.h"
 #include "base/sampler.h"
+#include "render/media/medium_event.h"
 
 #include <Imath/ImathBox.h>
 
@@ -11,9 +11,9 @@ namespace scree {
 
 /// How the numbers of the grids are to be read.
 struct GridMediumOptions {
-    Color scale{1};         ///< sigma_t = scale * density, per unit of length of the scene
-    Weight albedo{1};       ///< where there is no albedo grid
-    double g = 0;         ///< where there is no grid of g
+    Color scale{1}; ///< sigma_t = scale * density, per unit of length of the scene
+    Weight albedo{1}; ///< where there is no albedo grid
+    double g = 0; ///< where there is no grid of g
     bool nearest = false; ///< no interpolation: sigma_t, albedo and g are constant over a voxel
 };
 
@@ -21,11 +21,12 @@ struct GridMediumData;
 
 /// A participating medium whose sigma_t, albedo and g stand in sparse grids; safe to use from many threads.
 ///
-/// All places, directions and lengths are in render coordinates. Trilinear between voxel centres (or nearest). Grids are
-/// kept as bricks of 8^3 cells with a majorant each, and bricks without density are stepped over many at a time. Within
-/// a brick: delta tracking (Woodcock 1965) and residual ratio tracking (Novak et al. 2014); where a brick is constant, or
-/// so dense and uneven that these would take many steps, the optical depth of the interpolant in closed form instead. So the
-/// steps that a walk takes are bounded in the mean whatever the densities are. Made by make_grid_medium() and read_vdb_medium().
+/// All places, directions and lengths are in render coordinates. Trilinear between voxel centres (or nearest). Grids
+/// are kept as bricks of 8^3 cells with a majorant each, and bricks without density are stepped over many at a time.
+/// Within a brick: delta tracking (Woodcock 1965) and residual ratio tracking (Novak et al. 2014); where a brick is
+/// constant, or so dense and uneven that these would take many steps, the optical depth of the interpolant in closed
+/// form instead. So the steps that a walk takes are bounded in the mean whatever the densities are. Made by
+/// make_grid_medium() and read_vdb_medium().
 class GridMedium {
 public:
     explicit GridMedium(std::shared_ptr<const GridMediumData> data);

@@ -4,8 +4,8 @@ namespace scree {
 
 namespace {
 
-/// A brick is walked cell by cell where delta tracking through it could take more than this many steps, and most of them for
-/// nothing. Not less: through a cloud whose bricks are 60 deep, delta tracking was still the faster by half.
+/// A brick is walked cell by cell where delta tracking through it could take more than this many steps, and most of
+/// them for nothing. Not less: through a cloud whose bricks are 60 deep, delta tracking was still the faster by half.
 constexpr double most_steps = 256;
 
 } // namespace
@@ -21,7 +21,9 @@ void GridMediumData::prepare()
     regions.reserve(field.contents.size());
     for (const BrickField::Content& content : field.contents) {
         DensityRegion region;
-        const auto wide = [](const std::array<float, 3>& v) { return std::array<double, 3>{double{v[0]}, double{v[1]}, double{v[2]}}; };
+        const auto wide = [](const std::array<float, 3>& v) {
+            return std::array<double, 3>{double{v[0]}, double{v[1]}, double{v[2]}};
+        };
         const Sigma low = sigma_of(wide(content.low)), high = sigma_of(wide(content.high));
         region.least = low[0];
         region.offset = content.offset & ((uint64_t{1} << 62) - 1);
@@ -32,7 +34,8 @@ void GridMediumData::prepare()
         using Kind = DensityRegion::Kind;
         // In a brick that is even enough, a fair part of the collisions are real: it may be as dense as it likes.
         const double smallest = achromatic ? low[0] : std::min({low[0], low[1], low[2]});
-        const bool is_long = region.majorant * edge * BrickField::width > most_steps && smallest < 0.25 * region.majorant;
+        const bool is_long =
+            region.majorant * edge * BrickField::width > most_steps && smallest < 0.25 * region.majorant;
         region.kind = content.constant ? Kind::constant : is_long ? Kind::exact : Kind::delta;
         if (!achromatic) least.push_back(low);
         regions.push_back(region);

@@ -19,7 +19,7 @@ struct Affine {
 /// A field and where it lies.
 struct PlacedField {
     BrickField field;
-    Affine to_field;  ///< from render to field coordinates
+    Affine to_field; ///< from render to field coordinates
     Affine to_render; ///< and back
 
     std::array<double, 3> at(const V3d& p) const { return field.at(to_field.point(p)); }
@@ -28,10 +28,10 @@ struct PlacedField {
 /// How a walk deals with one content of the density field.
 struct DensityRegion {
     enum class Kind : uint64_t { constant, delta, exact };
-    double majorant = 0;          ///< largest sigma_t of any channel
-    double least = 0;             ///< sigma_t of the first channel
+    double majorant = 0; ///< largest sigma_t of any channel
+    double least = 0; ///< sigma_t of the first channel
     double residual_majorant = 0; ///< largest of any channel's sigma_t less its least
-    uint64_t offset : 62 = 0;     ///< of the values
+    uint64_t offset : 62 = 0; ///< of the values
     Kind kind : 2 = Kind::constant;
 };
 
@@ -39,7 +39,7 @@ struct GridMediumData {
     PlacedField density;
     std::vector<DensityRegion> regions; ///< one for each content of the density
     std::vector<std::array<double, 3>> least; ///< sigma_t of each channel in each region, if not achromatic
-    std::array<double, 3> scale{};      ///< sigma_t of density 1, per unit of render length
+    std::array<double, 3> scale{}; ///< sigma_t of density 1, per unit of render length
     bool achromatic = true;
     bool has_albedo = false, has_g = false;
     PlacedField albedo, g;
@@ -52,7 +52,8 @@ struct GridMediumData {
     Sigma sigma_of(const std::array<double, 3>& density_there) const
     {
         const bool one = density.field.planes == 1;
-        return {scale[0] * density_there[0], scale[1] * density_there[one ? 0 : 1], scale[2] * density_there[one ? 0 : 2]};
+        return {scale[0] * density_there[0], scale[1] * density_there[one ? 0 : 1],
+                scale[2] * density_there[one ? 0 : 2]};
     }
     Weight albedo_at(const V3d& p) const;
     double g_at(const V3d& p) const;

@@ -2,9 +2,13 @@
 
 namespace scree {
 
-HomogeneousMedium::HomogeneousMedium(const Imath::V3d& sigma_t, const Weight& albedo, double g) : sigma_t_(sigma_t), albedo_(albedo), phase_(g) {}
+HomogeneousMedium::HomogeneousMedium(const Imath::V3d& sigma_t, const Weight& albedo, double g)
+    : sigma_t_(sigma_t), albedo_(albedo), phase_(g)
+{
+}
 
-HomogeneousMedium::HomogeneousMedium(const Imath::V3d& sigma_t, const Weight& albedo, std::shared_ptr<const PhaseTable> table)
+HomogeneousMedium::HomogeneousMedium(const Imath::V3d& sigma_t, const Weight& albedo,
+                                     std::shared_ptr<const PhaseTable> table)
     : sigma_t_(sigma_t), albedo_(albedo), table_(std::move(table)), phase_(table_.get())
 {
 }

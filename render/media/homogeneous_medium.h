@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/media/medium_event.h"
 #include "base/sampler.h"
+#include "render/media/medium_event.h"
 
 #include <memory>
 

@@ -8,10 +8,10 @@ namespace scree {
 
 namespace {
 
-constexpr double most_cells = 1 << 20;   ///< of the first level
-constexpr double finest_samples = 0.75;  ///< apart, in voxels: what a voxel holds is seen wherever cubes begin
-constexpr double rounded = 1e-6;         ///< what sums in single precision are off by; of what has no unit
-constexpr double slack = 4 * rounded;    ///< likewise, where no ball is to be left out that is_same()
+constexpr double most_cells = 1 << 20; ///< of the first level
+constexpr double finest_samples = 0.75; ///< apart, in voxels: what a voxel holds is seen wherever cubes begin
+constexpr double rounded = 1e-6; ///< what sums in single precision are off by; of what has no unit
+constexpr double slack = 4 * rounded; ///< likewise, where no ball is to be left out that is_same()
 
 } // namespace
 
@@ -59,7 +59,9 @@ MediumPyramid::Cell MediumPyramid::cell_at(const GridMedium& medium, const V3d& 
     return cell;
 }
 
-MediumPyramid::MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, double tolerance, double thin, const Progress& progress) : tolerance_(tolerance), most_off_(tolerance + slack)
+MediumPyramid::MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, double tolerance, double thin,
+                             const Progress& progress)
+    : tolerance_(tolerance), most_off_(tolerance + slack)
 {
     const V3d extent = box.size();
     if (box.isEmpty() || !(extent.x > 0 && extent.y > 0 && extent.z > 0)) return;
@@ -69,13 +71,15 @@ MediumPyramid::MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, 
     const Real share = 1 / static_cast<Real>(samples);
     Level first;
     first.width = width_;
-    for (int k = 0; k < 3; ++k) first.size[static_cast<size_t>(k)] = static_cast<int64_t>(std::ceil(extent[k] / width_));
+    for (int k = 0; k < 3; ++k)
+        first.size[static_cast<size_t>(k)] = static_cast<int64_t>(std::ceil(extent[k] / width_));
     first.cells.resize(static_cast<size_t>(first.size[0] * first.size[1] * first.size[2]));
     tbb::parallel_for(int64_t{0}, first.size[0], [&](int64_t x) {
         if (progress.cancelled()) return;
         for (int64_t y = 0; y < first.size[1]; ++y) {
             for (int64_t z = 0; z < first.size[2]; ++z) {
-                const V3d low = origin_ + width_ * V3d(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
+                const V3d low =
+                    origin_ + width_ * V3d(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
                 Cell& cell = first.cells[static_cast<size_t>((x * first.size[1] + y) * first.size[2] + z)];
                 // Row by row and plane by plane: a sum of so many in single precision would drift.
                 for (int i = 0; i < samples; ++i) {
@@ -84,7 +88,9 @@ MediumPyramid::MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, 
                         Cell row;
                         for (int k = 0; k < samples; ++k) {
                             V3d place = low + width_ / samples * V3d(k + 0.5, j + 0.5, i + 0.5);
-                            for (int axis = 0; axis < 3; ++axis) place[axis] = std::min(place[axis], box.max[axis]); // the last cube reaches beyond the box
+                            for (int axis = 0; axis < 3; ++axis)
+                                place[axis] =
+                                    std::min(place[axis], box.max[axis]); // the last cube reaches beyond the box
                             row.add(cell_at(medium, place), share);
                         }
                         plane.add(row, share);
@@ -103,7 +109,8 @@ MediumPyramid::MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, 
         add_level();
     }
     fill_promising();
-    // No mean is above the largest sigma_t and albedo of all cubes. The rest is asked of somewhat larger ones: single grains are no medium.
+    // No mean is above the largest sigma_t and albedo of all cubes. The rest is asked of somewhat larger ones: single
+    // grains are no medium.
     for (const Cell& cell : levels_[0].cells) {
         if (!(cell.sigma_t > 0)) continue;
         extremes_.sigma_t_high = std::max(extremes_.sigma_t_high, double{cell.sigma_t});
@@ -125,7 +132,8 @@ void MediumPyramid::add_level()
     for (int64_t x = 0; x < above.size[0]; ++x) {
         for (int64_t y = 0; y < above.size[1]; ++y) {
             for (int64_t z = 0; z < above.size[2]; ++z) {
-                const int64_t parts = (2 * x + 1 < below.size[0] ? 2 : 1) * (2 * y + 1 < below.size[1] ? 2 : 1) * (2 * z + 1 < below.size[2] ? 2 : 1);
+                const int64_t parts = (2 * x + 1 < below.size[0] ? 2 : 1) * (2 * y + 1 < below.size[1] ? 2 : 1) *
+                                      (2 * z + 1 < below.size[2] ? 2 : 1);
                 Cell& cell = above.cells.emplace_back();
                 for (int64_t part = 0; part < 8; ++part) {
                     const int64_t i = 2 * x + (part & 1), j = 2 * y + (part >> 1 & 1), k = 2 * z + (part >> 2);
@@ -149,7 +157,8 @@ void MediumPyramid::fill_promising()
         tbb::parallel_for(int64_t{0}, level.size[0], [&](int64_t x) {
             for (int64_t y = 0; y < level.size[1]; ++y) {
                 for (int64_t z = 0; z < level.size[2]; ++z) {
-                    uint32_t bits = number + 1 < levels_.size() ? above[levels_[number + 1].index(x / 2, y / 2, z / 2)] : 0;
+                    uint32_t bits =
+                        number + 1 < levels_.size() ? above[levels_[number + 1].index(x / 2, y / 2, z / 2)] : 0;
                     // Two levels below that of a ball it is known which cubes it meets for certain.
                     for (size_t of = number > 0 ? number + 2 : 0; of <= number + 2 && of < levels_.size(); ++of) {
                         if (may_hold(of, number, {x, y, z})) bits |= uint32_t{1} << of;
@@ -165,7 +174,8 @@ void MediumPyramid::fill_promising()
 bool MediumPyramid::may_hold(size_t number, size_t finer, const std::array<int64_t, 3>& cube) const
 {
     const Level& level = levels_[number];
-    // A ball is wider than half a cube, but for the first level, and not wider than one: from the outer quarters of its centre's cube it reaches into the next.
+    // A ball is wider than half a cube, but for the first level, and not wider than one: from the outer quarters of its
+    // centre's cube it reaches into the next.
     std::array<int64_t, 3> own, next;
     double share = 1; // of the ball, by width, in its centre's cube at least
     for (size_t k = 0; k < 3; ++k) {
@@ -183,22 +193,30 @@ bool MediumPyramid::may_hold(size_t number, size_t finer, const std::array<int64
         }
     }
     // What is_same() asks of all cubes that a ball meets, and of their mean, can be so only if it is of these.
-    const auto close = [this](double low, double high) { return (high - slack) * (1 - tolerance_) <= (low + slack) * (1 + tolerance_); };
+    const auto close = [this](double low, double high) {
+        return (high - slack) * (1 - tolerance_) <= (low + slack) * (1 + tolerance_);
+    };
     const double highest_mean = double{range.sigma_low} / (1 - most_off_);
     if (!(0.5 * level.width * highest_mean >= 1 - slack)) return false;
-    if (!(may_be_close(range.sigma_low, range.sigma_high) && close(range.loss_low, range.loss_high) && close(range.back_low, range.back_high))) return false;
+    if (!(may_be_close(range.sigma_low, range.sigma_high) && close(range.loss_low, range.loss_high) &&
+          close(range.back_low, range.back_high)))
+        return false;
     const double most = (0.25 * most_off_ * most_off_ + slack) * highest_mean * highest_mean;
-    return share * middle.variance() <= most && (number > 0 || share * middle.variance() + (1 - share) * least_variance_around(own) <= most);
+    return share * middle.variance() <= most &&
+           (number > 0 || share * middle.variance() + (1 - share) * least_variance_around(own) <= most);
 }
 
 double MediumPyramid::least_variance_around(const std::array<int64_t, 3>& cube) const
 {
     const Level& level = levels_[0];
     const auto each = [&](size_t axis, const auto& visit) {
-        for (int64_t i = std::max<int64_t>(0, cube[axis] - 1); i < std::min(level.size[axis], cube[axis] + 2); ++i) visit(i);
+        for (int64_t i = std::max<int64_t>(0, cube[axis] - 1); i < std::min(level.size[axis], cube[axis] + 2); ++i)
+            visit(i);
     };
     double least = level.at(cube[0], cube[1], cube[2]).variance();
-    each(0, [&](int64_t x) { each(1, [&](int64_t y) { each(2, [&](int64_t z) { least = std::min(least, level.at(x, y, z).variance()); }); }); });
+    each(0, [&](int64_t x) {
+        each(1, [&](int64_t y) { each(2, [&](int64_t z) { least = std::min(least, level.at(x, y, z).variance()); }); });
+    });
     return least;
 }
 
@@ -215,7 +233,8 @@ bool MediumPyramid::halve_until_same(const V3d& centre, double& radius, MediumMe
     std::array<int64_t, 3> cube;
     double room = width_; // around the place, within its cube of the first level
     for (int k = 0; k < 3; ++k) {
-        const double at = (centre[k] - origin_[k]) / width_, size = static_cast<double>(levels_[0].size[static_cast<size_t>(k)]);
+        const double at = (centre[k] - origin_[k]) / width_,
+                     size = static_cast<double>(levels_[0].size[static_cast<size_t>(k)]);
         if (!(at >= 0 && at < size)) return false;
         cube[static_cast<size_t>(k)] = static_cast<int64_t>(at);
         const double part = at - std::floor(at);
@@ -229,7 +248,8 @@ bool MediumPyramid::halve_until_same(const V3d& centre, double& radius, MediumMe
         while (level > 0 && levels_[level - 1].width >= 2 * radius) --level;
         if (level == 0) {
             if ((promising & 1) == 0) return false;
-            densest = std::min(densest, double{levels_[0].cells[own].sigma_t} / (1 - most_off_)); // of balls that are the same
+            densest = std::min(densest,
+                               double{levels_[0].cells[own].sigma_t} / (1 - most_off_)); // of balls that are the same
             if (!(radius * densest >= 1)) return false;
         }
         if ((promising >> level & 1) != 0 && is_same(centre, radius, level, mean)) return true;
@@ -265,7 +285,8 @@ bool MediumPyramid::is_same(const V3d& centre, double radius, size_t number, Med
                 lowest = std::min(lowest, cell.sigma_low);
                 highest = std::max(highest, cell.sigma_high);
                 if (!may_be_close(lowest, highest)) return false; // most that are not the same are found out here
-                ball.add(cell, static_cast<Real>(share[0][x > first[0]] * share[1][y > first[1]] * share[2][z > first[2]]));
+                ball.add(cell,
+                         static_cast<Real>(share[0][x > first[0]] * share[1][y > first[1]] * share[2][z > first[2]]));
             }
         }
     }
@@ -277,10 +298,12 @@ bool MediumPyramid::is_same(const V3d& centre, double radius, size_t number, Med
     const double loss = ball.least_lost() / sigma, back = 1 - mean.g;
     const auto close = [&](double low, double high, double square, double value) {
         const double most = value * tolerance_ + rounded;
-        return low >= value - most && high <= value + most && square - value * value <= 0.25 * most * most + rounded * value * value;
+        return low >= value - most && high <= value + most &&
+               square - value * value <= 0.25 * most * most + rounded * value * value;
     };
-    return close(ball.sigma_low / sigma, ball.sigma_high / sigma, ball.sigma_square / (sigma * sigma), 1)
-           && close(ball.loss_low, ball.loss_high, ball.loss_square / sigma, loss) && close(ball.back_low, ball.back_high, ball.back_square / brightest, back);
+    return close(ball.sigma_low / sigma, ball.sigma_high / sigma, ball.sigma_square / (sigma * sigma), 1) &&
+           close(ball.loss_low, ball.loss_high, ball.loss_square / sigma, loss) &&
+           close(ball.back_low, ball.back_high, ball.back_square / brightest, back);
 }
 
 uint64_t MediumPyramid::bytes() const

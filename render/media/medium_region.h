@@ -20,7 +20,7 @@ struct MediumRegion {
     std::vector<V3f> positions;
     std::vector<std::array<uint32_t, 3>> triangles; ///< closed, counter-clockwise from outside
     std::shared_ptr<const HomogeneousMedium> homogeneous; ///< this,
-    std::shared_ptr<const GridMedium> grid;               ///< or this
+    std::shared_ptr<const GridMedium> grid; ///< or this
     std::shared_ptr<const MediumShells> shells; ///< that light may go through in there, or null
     bool instead_of_grains = false; ///< the medium stands for the grains in there, which are not met
 

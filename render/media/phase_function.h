@@ -7,7 +7,8 @@
 
 namespace scree {
 
-// The phase function of Henyey and Greenstein (1941), -1 < g < 1; cosine: between the ways before and after, 1 is straight on.
+// The phase function of Henyey and Greenstein (1941), -1 < g < 1; cosine: between the ways before and after, 1 is
+// straight on.
 
 /// A cosine, by u in 0..1. Without cancellation for small g.
 inline double sample_henyey_greenstein(double g, double u)
@@ -41,7 +42,8 @@ private:
     std::array<double, CosineTable::bins> cumulated_{}; ///< to each bin's end
 };
 
-/// A phase function that depends on the angle alone: Henyey and Greenstein's, or a tabulated one, which must outlive this.
+/// A phase function that depends on the angle alone: Henyey and Greenstein's, or a tabulated one, which must outlive
+/// this.
 class PhaseFunction {
 public:
     PhaseFunction() = default; ///< isotropic

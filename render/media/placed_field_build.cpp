@@ -16,10 +16,13 @@ struct Placement {
     V3d constant;
 };
 
-Placement placement_of(const openvdb::GridBase& grid, const Imath::M44d& to_scene, const std::string& name, const std::string& place)
+Placement placement_of(const openvdb::GridBase& grid, const Imath::M44d& to_scene, const std::string& name,
+                       const std::string& place)
 {
     const auto map = grid.transform().baseMap();
-    if (!map->isLinear()) throw InputError(place, fmt::format("a {} transform of the grid of {}", map->type(), name), "a linear (affine) transform", "resample the grid, frusta are not read");
+    if (!map->isLinear())
+        throw InputError(place, fmt::format("a {} transform of the grid of {}", map->type(), name),
+                         "a linear (affine) transform", "resample the grid, frusta are not read");
     const auto from_vdb = [](const openvdb::Vec3d& v) { return V3d(v.x(), v.y(), v.z()); };
     Placement p;
     for (int k = 0; k < 3; ++k) {
@@ -31,14 +34,17 @@ Placement placement_of(const openvdb::GridBase& grid, const Imath::M44d& to_scen
     return p;
 }
 
-void place_field(PlacedField& placed, const Placement& p, const Coord& origin, const RenderSpace& space, const std::string& name, const std::string& place)
+void place_field(PlacedField& placed, const Placement& p, const Coord& origin, const RenderSpace& space,
+                 const std::string& name, const std::string& place)
 {
     const V3d &x = p.columns[0], &y = p.columns[1], &z = p.columns[2];
     // The adjugate is exact under scaling by powers of two.
     const double determinant = x.dot(y.cross(z));
     const std::array<V3d, 3> inverse{y.cross(z) / determinant, z.cross(x) / determinant, x.cross(y) / determinant};
     for (const V3d& row : inverse)
-        if (!std::isfinite(row.x + row.y + row.z)) throw InputError(place, fmt::format("a transform of the grid of {} that cannot be inverted", name), "voxels that have a volume");
+        if (!std::isfinite(row.x + row.y + row.z))
+            throw InputError(place, fmt::format("a transform of the grid of {} that cannot be inverted", name),
+                             "voxels that have a volume");
     const double half = placed.field.nearest ? 0.5 : 0; // a voxel is around its centre
     const V3d from_origin = space.origin - p.constant;
     const V3d first(origin.x() - half, origin.y() - half, origin.z() - half);
@@ -54,8 +60,9 @@ void place_field(PlacedField& placed, const Placement& p, const Coord& origin, c
 
 } // namespace
 
-PlacedField make_placed_field(const openvdb::GridBase& grid, const FieldLimits& limits, bool nearest, const Imath::M44d& to_scene,
-                              const RenderSpace& space, const std::string& place, const Progress& progress)
+PlacedField make_placed_field(const openvdb::GridBase& grid, const FieldLimits& limits, bool nearest,
+                              const Imath::M44d& to_scene, const RenderSpace& space, const std::string& place,
+                              const Progress& progress)
 {
     const Placement placement = placement_of(grid, to_scene, limits.name, place);
     PlacedField placed;

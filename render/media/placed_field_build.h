@@ -2,9 +2,9 @@
 
 // Private to what makes media: it shows OpenVDB's headers.
 
+#include "base/render_space.h"
 #include "render/media/brick_field_build.h"
 #include "render/media/grid_medium_data.h"
-#include "base/render_space.h"
 
 #include <Imath/ImathMatrix.h>
 
@@ -13,7 +13,8 @@ namespace scree {
 /// A grid as bricks, at its place in render coordinates.
 ///
 /// Throws as make_brick_field(), and InputError for a transform that is not linear or cannot be inverted.
-PlacedField make_placed_field(const openvdb::GridBase& grid, const FieldLimits& limits, bool nearest, const Imath::M44d& to_scene,
-                              const RenderSpace& space, const std::string& place, const Progress& progress);
+PlacedField make_placed_field(const openvdb::GridBase& grid, const FieldLimits& limits, bool nearest,
+                              const Imath::M44d& to_scene, const RenderSpace& space, const std::string& place,
+                              const Progress& progress);
 
 } // namespace scree

@@ -37,12 +37,15 @@ V3d TriangleBlock::nearest(size_t lane, const V3d& place) const
 
 double TriangleBlock::distance(size_t lane, const V3d& place) const
 {
-    // As in `squares`, with u = 2^-53 and M for S. Where n is hardly known every point of the triangle is within |n| / longest edge of one of its edges.
+    // As in `squares`, with u = 2^-53 and M for S. Where n is hardly known every point of the triangle is within |n| /
+    // longest edge of one of its edges.
     const std::array<V3d, 3> t = triangle(lane);
-    const V3d a = t[0] - place, b = t[1] - place, c = t[2] - place, u = t[1] - t[0], v = t[2] - t[1], w = t[0] - t[2], normal = w.cross(u);
+    const V3d a = t[0] - place, b = t[1] - place, c = t[2] - place, u = t[1] - t[0], v = t[2] - t[1], w = t[0] - t[2],
+              normal = w.cross(u);
     const double uu = u.dot(u), ww = w.dot(w), nn = normal.dot(normal), far = std::max({a.dot(a), b.dot(b), c.dot(c)});
     const double rounding = 0x1p-46 * std::sqrt(far) + 0x1p-140, slant = std::sqrt(uu * ww);
-    const double inside = std::min({normal.dot(a.cross(b)), normal.dot(b.cross(c)), normal.dot(c.cross(a))}), tolerance = 0x1p-48 * slant * far;
+    const double inside = std::min({normal.dot(a.cross(b)), normal.dot(b.cross(c)), normal.dot(c.cross(a))}),
+                 tolerance = 0x1p-48 * slant * far;
     const bool known = nn >= 0x1p-48 * uu * ww && nn > 0x1p-800;
     double plane = std::numeric_limits<double>::infinity();
     if (known && inside >= -tolerance) {

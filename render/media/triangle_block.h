@@ -9,7 +9,8 @@ namespace scree {
 
 /// Up to eight triangles whose distances from a place are found at once; empty lanes repeat another triangle.
 ///
-/// Corners are in units in which the places that are asked about are about 1 apart, below 2^100 and off by less than 2^-149.
+/// Corners are in units in which the places that are asked about are about 1 apart, below 2^100 and off by less than
+/// 2^-149.
 struct TriangleBlock {
     static constexpr size_t lanes = 8;
     using Lanes = std::array<float, lanes>;
@@ -33,7 +34,8 @@ struct TriangleBlock {
         Lanes low, about;
     };
     Squares squares(const V3d& place) const;
-    /// A lower bound of the distance from a place to one of the triangles, mostly some 1e-14 of the farthest corner's distance below it.
+    /// A lower bound of the distance from a place to one of the triangles, mostly some 1e-14 of the farthest corner's
+    /// distance below it.
     double distance(size_t lane, const V3d& place) const;
     /// The point of a triangle that is nearest to a place, up to rounding.
     V3d nearest(size_t lane, const V3d& place) const;
@@ -41,14 +43,16 @@ struct TriangleBlock {
 
 inline TriangleBlock::Squares TriangleBlock::squares(const V3d& place) const
 {
-    // The nearest of a triangle's points is that of one of its edges, or the foot on its plane, where that is in the triangle.
+    // The nearest of a triangle's points is that of one of its edges, or the foot on its plane, where that is in the
+    // triangle.
     //
-    // Let u = 2^-24, q the place from a corner of the block, M the farthest corner's distance from the place and S^2 = q^2 + M^2. Corners from the place,
-    // a to c, are off by less than 8 u S, edges by u of each component.
-    // Edges: each a + t e that is computed is within 16 u S of a point of the triangle, and t off by no more than 16 u S / |e| from the best
-    // in 0..1; where |e|^2 underflows any t will do. With squares and sums below 64 u S; (d - 64 u S)^2 >= (1 - 2^-13) d^2 - 2^-23 S^2.
-    // Plane: n = w x u is off by less than 8 u |u| |w| in length, so n.a by less than 16 u |a| |u| |w|, which `high` is lowered by twice, and what a is
-    // off by counts as with edges. No point of a triangle is nearer than its plane, so that is `low` wherever the foot may be inside.
+    // Let u = 2^-24, q the place from a corner of the block, M the farthest corner's distance from the place and S^2 =
+    // q^2 + M^2. Corners from the place, a to c, are off by less than 8 u S, edges by u of each component. Edges: each
+    // a + t e that is computed is within 16 u S of a point of the triangle, and t off by no more than 16 u S / |e| from
+    // the best in 0..1; where |e|^2 underflows any t will do. With squares and sums below 64 u S; (d - 64 u S)^2 >= (1
+    // - 2^-13) d^2 - 2^-23 S^2. Plane: n = w x u is off by less than 8 u |u| |w| in length, so n.a by less than 16 u
+    // |a| |u| |w|, which `high` is lowered by twice, and what a is off by counts as with edges. No point of a triangle
+    // is nearer than its plane, so that is `low` wherever the foot may be inside.
     constexpr float tiny = 0x1p-100f, tolerance = 0x1p-17f;
     const V3d origin(double{corner[0][0][0]}, double{corner[0][1][0]}, double{corner[0][2][0]});
     const V3f q(place - origin), o{origin};
@@ -61,18 +65,30 @@ inline TriangleBlock::Squares TriangleBlock::squares(const V3d& place) const
         const float ax = (ox - o.x) - q.x, ay = (oy - o.y) - q.y, az = (oz - o.z) - q.z;
         const float bx = (px - o.x) - q.x, by = (py - o.y) - q.y, bz = (pz - o.z) - q.z;
         const float cx = (rx - o.x) - q.x, cy = (ry - o.y) - q.y, cz = (rz - o.z) - q.z;
-        const float ux = px - ox, uy = py - oy, uz = pz - oz, vx = rx - px, vy = ry - py, vz = rz - pz, wx = ox - rx, wy = oy - ry, wz = oz - rz;
-        const float uu = ux * ux + uy * uy + uz * uz, vv = vx * vx + vy * vy + vz * vz, ww = wx * wx + wy * wy + wz * wz;
-        const float aa = ax * ax + ay * ay + az * az, bb = bx * bx + by * by + bz * bz, cc = cx * cx + cy * cy + cz * cz;
+        const float ux = px - ox, uy = py - oy, uz = pz - oz, vx = rx - px, vy = ry - py, vz = rz - pz, wx = ox - rx,
+                    wy = oy - ry, wz = oz - rz;
+        const float uu = ux * ux + uy * uy + uz * uz, vv = vx * vx + vy * vy + vz * vz,
+                    ww = wx * wx + wy * wy + wz * wz;
+        const float aa = ax * ax + ay * ay + az * az, bb = bx * bx + by * by + bz * bz,
+                    cc = cx * cx + cy * cy + cz * cz;
 
         const float su = -(ax * ux + ay * uy + az * uz) / (uu > tiny ? uu : tiny);
         const float sv = -(bx * vx + by * vy + bz * vz) / (vv > tiny ? vv : tiny);
         const float sw = -(cx * wx + cy * wy + cz * wz) / (ww > tiny ? ww : tiny);
-        const float tu = su < 0 ? 0 : su > 1 ? 1 : su, tv = sv < 0 ? 0 : sv > 1 ? 1 : sv, tw = sw < 0 ? 0 : sw > 1 ? 1 : sw;
+        const float tu = su < 0   ? 0
+                         : su > 1 ? 1
+                                  : su,
+                    tv = sv < 0   ? 0
+                         : sv > 1 ? 1
+                                  : sv,
+                    tw = sw < 0   ? 0
+                         : sw > 1 ? 1
+                                  : sw;
         const float fx = ax + tu * ux, fy = ay + tu * uy, fz = az + tu * uz;
         const float gx = bx + tv * vx, gy = by + tv * vy, gz = bz + tv * vz;
         const float hx = cx + tw * wx, hy = cy + tw * wy, hz = cz + tw * wz;
-        const float ff = fx * fx + fy * fy + fz * fz, gg = gx * gx + gy * gy + gz * gz, hh = hx * hx + hy * hy + hz * hz;
+        const float ff = fx * fx + fy * fy + fz * fz, gg = gx * gx + gy * gy + gz * gz,
+                    hh = hx * hx + hy * hy + hz * hz;
         const float fg = ff < gg ? ff : gg, edges = fg < hh ? fg : hh;
 
         const float nx = wy * uz - wz * uy, ny = wz * ux - wx * uz, nz = wx * uy - wy * ux;
@@ -83,10 +99,13 @@ inline TriangleBlock::Squares TriangleBlock::squares(const V3d& place) const
         const float iw = nx * (cy * az - cz * ay) + ny * (cz * ax - cx * az) + nz * (cx * ay - cy * ax);
         const float uv = iu < iv ? iu : iv, inside = uv < iw ? uv : iw;
         const float ab = aa > bb ? aa : bb, far = qq + (ab > cc ? ab : cc);
-        const float u1 = std::abs(ux) + std::abs(uy) + std::abs(uz), w1 = std::abs(wx) + std::abs(wy) + std::abs(wz), a1 = std::abs(ax) + std::abs(ay) + std::abs(az);
-        const float high = std::abs(ax * nx + ay * ny + az * nz), lowered = high - 0x1p-19f * a1 * u1 * w1, lowest = lowered > 0 ? lowered : 0;
+        const float u1 = std::abs(ux) + std::abs(uy) + std::abs(uz), w1 = std::abs(wx) + std::abs(wy) + std::abs(wz),
+                    a1 = std::abs(ax) + std::abs(ay) + std::abs(az);
+        const float high = std::abs(ax * nx + ay * ny + az * nz), lowered = high - 0x1p-19f * a1 * u1 * w1,
+                    lowest = lowered > 0 ? lowered : 0;
         const float area = nn > tiny ? nn : tiny, plane = high * high / area, below = lowest * lowest / area;
-        const float about = inside >= 0 ? plane : edges, under = inside >= -tolerance * (u1 * w1) * far ? (below < edges ? below : edges) : edges;
+        const float about = inside >= 0 ? plane : edges,
+                    under = inside >= -tolerance * (u1 * w1) * far ? (below < edges ? below : edges) : edges;
         const float low = under * (1 - 0x1p-12f) - 0x1p-22f * far - 0x1p-100f;
         squares.about[k] = about;
         // Where the normal is hardly known the plane tells nothing; NaN tells nothing either.

@@ -8,7 +8,8 @@ namespace scree {
 
 namespace {
 
-/// The least of squares, of which none is negative: they are in the order of their bits, the last three of which are given to the lane. Lowered by up to 2^-20.
+/// The least of squares, of which none is negative: they are in the order of their bits, the last three of which are
+/// given to the lane. Lowered by up to 2^-20.
 inline uint32_t least_with_lane(const std::array<float, 8>& squares)
 {
     std::array<uint32_t, 8> key = std::bit_cast<std::array<uint32_t, 8>>(squares);
@@ -23,8 +24,8 @@ struct Entry {
     uint32_t child;
 };
 
-/// What may be lost, as a share of the distance, after so many blocks: near the middle of a ball all of its surface is as far, and looking for the
-/// very nearest would visit it all.
+/// What may be lost, as a share of the distance, after so many blocks: near the middle of a ball all of its surface is
+/// as far, and looking for the very nearest would visit it all.
 constexpr double large_loss = 0x1p-6;
 constexpr double float_loss = 0x1p-10; ///< of the square, by float in place of double
 constexpr int patience = 64;
@@ -35,14 +36,18 @@ constexpr float most_square = 0x1p100f; ///< that is told of: greater ones might
 
 inline std::array<float, TriangleTree::width> TriangleTree::squares(const Node& node, const SplitPlace& place)
 {
-    // Let u = 2^-24: q from a box's middle is off by less than 3 u |q| and what the place's parts are off, and what is computed along an axis by less than
-    // 8 u of the sum of |q|'s components, which each gap is lowered by.
+    // Let u = 2^-24: q from a box's middle is off by less than 3 u |q| and what the place's parts are off, and what is
+    // computed along an axis by less than 8 u of the sum of |q|'s components, which each gap is lowered by.
     std::array<float, width> square;
     for (size_t k = 0; k < width; ++k) {
-        const float x = (place.high.x - node.middle[0][k]) + place.low.x, y = (place.high.y - node.middle[1][k]) + place.low.y, z = (place.high.z - node.middle[2][k]) + place.low.z;
+        const float x = (place.high.x - node.middle[0][k]) + place.low.x,
+                    y = (place.high.y - node.middle[1][k]) + place.low.y,
+                    z = (place.high.z - node.middle[2][k]) + place.low.z;
         const float rounding = 0x1p-20f * (std::abs(x) + std::abs(y) + std::abs(z)) + place.rounding;
         const auto gap = [&](size_t axis) {
-            const float g = std::abs(node.axes[axis][0][k] * x + node.axes[axis][1][k] * y + node.axes[axis][2][k] * z) - rounding - node.half[axis][k];
+            const float g =
+                std::abs(node.axes[axis][0][k] * x + node.axes[axis][1][k] * y + node.axes[axis][2][k] * z) - rounding -
+                node.half[axis][k];
             return g > 0 ? g : 0;
         };
         const float a = gap(0), b = gap(1), c = gap(2), sum = a * a + b * b + c * c;
@@ -66,7 +71,8 @@ inline double TriangleTree::nearer(const TriangleBlock& block, const V3d& place,
 }
 
 TriangleTree::SplitPlace::SplitPlace(const V3d& place)
-    : high(place), low(place - V3d(high)), rounding(static_cast<float>(0x1p-46 * (std::abs(place.x) + std::abs(place.y) + std::abs(place.z))))
+    : high(place), low(place - V3d(high)),
+      rounding(static_cast<float>(0x1p-46 * (std::abs(place.x) + std::abs(place.y) + std::abs(place.z))))
 {
 }
 
@@ -115,8 +121,11 @@ double TriangleTree::distance(const V3d& place, uint32_t& block, const Entries& 
     double best = std::numeric_limits<double>::infinity();
     if (blocks_.empty()) return best;
     if (block != none) best = nearer(blocks_[block], place, best);
-    // Boxes' squares are off by less than 2^-20 of them (axes are off by 2^-25 in each component), and by what underflows.
-    const auto limit_of = [&lost](double d) { return static_cast<float>(d * d * ((1 - lost) * (1 - lost) * (1 + 0x1p-19)) + 0x1p-118); };
+    // Boxes' squares are off by less than 2^-20 of them (axes are off by 2^-25 in each component), and by what
+    // underflows.
+    const auto limit_of = [&lost](double d) {
+        return static_cast<float>(d * d * ((1 - lost) * (1 - lost) * (1 + 0x1p-19)) + 0x1p-118);
+    };
     float limit = limit_of(best);
     Entry stack[deepest * (width - 1) + 2 * width + most_entries];
     size_t waiting = 0;
@@ -144,7 +153,8 @@ double TriangleTree::distance(const V3d& place, uint32_t& block, const Entries& 
             // Without branches, which would often go the wrong way.
             for (uint32_t k = 0; k < width; ++k) {
                 stack[waiting] = {square[k], node.child[k]};
-                waiting += static_cast<size_t>(square[k] < limit) & static_cast<size_t>(k != nearest) & static_cast<size_t>(node.child[k] != 0);
+                waiting += static_cast<size_t>(square[k] < limit) & static_cast<size_t>(k != nearest) &
+                           static_cast<size_t>(node.child[k] != 0);
             }
             if (square[nearest] < limit && node.child[nearest] != 0) {
                 next = node.child[nearest];

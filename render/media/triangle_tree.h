@@ -1,7 +1,7 @@
 #pragma once
 
-#include "base/progress.h"
 #include "base/math.h"
+#include "base/progress.h"
 #include "render/media/triangle_block.h"
 
 #include <array>
@@ -19,15 +19,15 @@ struct TriangleView {
 
 /// Finds how far it is from a place to the nearest of many triangles, of which it keeps its own copy.
 ///
-/// A tree of boxes, eight a node, over blocks of up to eight triangles. Boxes lie along what is in them (Gottschalk, Lin and Manocha 1996): those of a smooth
-/// surface are thin, and few of them are as near as the nearest triangle.
+/// A tree of boxes, eight a node, over blocks of up to eight triangles. Boxes lie along what is in them (Gottschalk,
+/// Lin and Manocha 1996): those of a smooth surface are thin, and few of them are as near as the nearest triangle.
 class TriangleTree {
 public:
     static constexpr uint32_t none = ~uint32_t{0};
 
     TriangleTree() = default;
-    /// scale: a power of two that brings places that are asked about to a range about 1 wide. Throws InputError (a corner that is missing, not finite,
-    /// or not below 2^100 scaled), Cancelled.
+    /// scale: a power of two that brings places that are asked about to a range about 1 wide. Throws InputError (a
+    /// corner that is missing, not finite, or not below 2^100 scaled), Cancelled.
     TriangleTree(std::span<const TriangleView> meshes, double scale, const Progress& progress);
 
     bool empty() const { return blocks_.empty(); }
@@ -36,7 +36,8 @@ public:
     using Entries = std::array<uint32_t, most_entries>;
     /// For places in a ball; below 2^21.
     Entries entries(const V3d& middle, double radius) const;
-    /// A lower bound of the scaled distance from a scaled place; mostly 2^-12 of it below, at most 2^-6. Infinite where there are no triangles.
+    /// A lower bound of the scaled distance from a scaled place; mostly 2^-12 of it below, at most 2^-6. Infinite where
+    /// there are no triangles.
     double distance(const V3d& place, const Entries& from = {0, 0, 0}) const
     {
         uint32_t block = none;
@@ -49,7 +50,10 @@ public:
         return distance(place, block, from, rough_loss, least);
     }
     /// block: where it is likely to be found, or none; becomes where it was found.
-    double distance(const V3d& place, uint32_t& block, const Entries& from = {0, 0, 0}) const { return distance(place, block, from, loss, 0); }
+    double distance(const V3d& place, uint32_t& block, const Entries& from = {0, 0, 0}) const
+    {
+        return distance(place, block, from, loss, 0);
+    }
     /// About the point of a block's triangles that is nearest to a place.
     V3d nearest_point(uint32_t block, const V3d& place) const;
     uint64_t bytes() const { return nodes_.size() * sizeof(Node) + blocks_.size() * sizeof(TriangleBlock); }
@@ -65,10 +69,11 @@ private:
     struct alignas(64) Node {
         using Lanes = std::array<float, width>;
 
-        std::array<Lanes, 3> middle{};              ///< by axis
+        std::array<Lanes, 3> middle{}; ///< by axis
         std::array<std::array<Lanes, 3>, 3> axes{}; ///< rows: nearly unit vectors along the box's edges
-        std::array<Lanes, 3> half{};                ///< of the edges; very negative where there is no child, so that this is never the nearest
-        std::array<uint32_t, width> child{};        ///< 0: none, which are the last
+        std::array<Lanes, 3>
+            half{}; ///< of the edges; very negative where there is no child, so that this is never the nearest
+        std::array<uint32_t, width> child{}; ///< 0: none, which are the last
     };
 
     /// A place as the sum of two in float.

@@ -49,7 +49,8 @@ constexpr size_t bins = 16, worth_a_task = 4096, halving_depth = 24, worth_turni
 
 class TriangleTreeBuilder {
 public:
-    TriangleTreeBuilder(std::span<const TriangleView> meshes, double scale, const Progress& progress) : progress_(progress)
+    TriangleTreeBuilder(std::span<const TriangleView> meshes, double scale, const Progress& progress)
+        : progress_(progress)
     {
         size_t count = 0;
         for (const TriangleView& mesh : meshes) count += mesh.triangles.size();
@@ -83,12 +84,17 @@ private:
         if (progress_.cancelled()) return;
         for (size_t k = 0; k < 3; ++k) {
             const uint32_t vertex = mesh.triangles[t][k];
-            if (vertex >= mesh.positions.size()) throw InputError("clearance field", fmt::format("vertex {}", vertex), fmt::format("below {}", mesh.positions.size()));
+            if (vertex >= mesh.positions.size())
+                throw InputError("clearance field", fmt::format("vertex {}", vertex),
+                                 fmt::format("below {}", mesh.positions.size()));
             const V3d p(mesh.positions[vertex]);
-            if (!std::isfinite(p.x + p.y + p.z)) throw InputError("clearance field", fmt::format("vertex {} that is not finite", vertex), "finite numbers");
+            if (!std::isfinite(p.x + p.y + p.z))
+                throw InputError("clearance field", fmt::format("vertex {} that is not finite", vertex),
+                                 "finite numbers");
             const V3d scaled = p * scale;
             if (!(std::max({std::abs(scaled.x), std::abs(scaled.y), std::abs(scaled.z)}) < 0x1p100))
-                throw InputError("clearance field", fmt::format("vertex {} that is 2^100 boxes away", vertex), "places near the box");
+                throw InputError("clearance field", fmt::format("vertex {} that is 2^100 boxes away", vertex),
+                                 "places near the box");
             corners_[to][k] = V3f(scaled);
             bounds_[to].extend(corners_[to][k]);
         }
@@ -120,15 +126,18 @@ private:
         for (size_t k = 0; k < parts.size(); ++k) {
             set_box(node, k, parts[k]);
             const bool block = parts[k].count() <= TriangleBlock::lanes;
-            node.child[k] = block ? TriangleTree::leaf | make_block(parts[k]) : static_cast<uint32_t>(nodes_.grow_by(1) - nodes_.begin());
+            node.child[k] = block ? TriangleTree::leaf | make_block(parts[k])
+                                  : static_cast<uint32_t>(nodes_.grow_by(1) - nodes_.begin());
         }
         nodes_[at] = node;
         if (progress_.cancelled()) return;
         const auto descend = [&](size_t k) {
             if (!(node.child[k] & TriangleTree::leaf)) fill(node.child[k], parts[k], depth + 1);
         };
-        if (range.count() > worth_a_task) tbb::parallel_for(size_t{0}, parts.size(), descend);
-        else for (size_t k = 0; k < parts.size(); ++k) descend(k);
+        if (range.count() > worth_a_task)
+            tbb::parallel_for(size_t{0}, parts.size(), descend);
+        else
+            for (size_t k = 0; k < parts.size(); ++k) descend(k);
     }
 
     /// Along the mean normal and what is farthest in its plane; along the coordinates where that is no smaller.
@@ -154,11 +163,13 @@ private:
                 // A second time: the first may have left much of the normal.
                 along = (along - normal * normal.dot(along)).normalized();
                 const V3d across = normal.cross(along).normalized();
-                // Small boxes, which are many, are worth a search: one along the diagonal of a patch is twice as large as it need be.
+                // Small boxes, which are many, are worth a search: one along the diagonal of a patch is twice as large
+                // as it need be.
                 const int angles = range.count() <= worth_turning ? 6 : 1;
                 for (int angle = 0; angle < angles; ++angle) {
                     const double c = std::cos(pi / 2 * angle / angles), s = std::sin(pi / 2 * angle / angles);
-                    const std::array<V3f, 3> turned{V3f(normal), V3f(along * c + across * s), V3f(across * c - along * s)};
+                    const std::array<V3f, 3> turned{V3f(normal), V3f(along * c + across * s),
+                                                    V3f(across * c - along * s)};
                     V3d low, high;
                     measure(turned, range, low, high);
                     const auto area = [](const V3d& d) { return d.x * d.y + d.y * d.z + d.z * d.x; };
@@ -175,7 +186,9 @@ private:
         for (size_t axis = 0; axis < 3; ++axis) {
             const int a = static_cast<int>(axis);
             const double at = V3d(axes[axis]).dot(V3d(middle));
-            const auto half = static_cast<float>(std::max(hi[a] - at, at - lo[a]) * (1 + 0x1p-22) + 0x1p-49 * (std::abs(middle.x) + std::abs(middle.y) + std::abs(middle.z)));
+            const auto half =
+                static_cast<float>(std::max(hi[a] - at, at - lo[a]) * (1 + 0x1p-22) +
+                                   0x1p-49 * (std::abs(middle.x) + std::abs(middle.y) + std::abs(middle.z)));
             node.middle[axis][k] = middle[a];
             node.half[axis][k] = half;
             for (size_t j = 0; j < 3; ++j) node.axes[axis][j][k] = axes[axis][static_cast<int>(j)];
@@ -202,22 +215,27 @@ private:
     uint32_t make_block(const Range& range)
     {
         TriangleBlock block;
-        for (size_t lane = 0; lane < TriangleBlock::lanes; ++lane) block.set(lane, corners_[order_[range.first + std::min(lane, range.count() - 1)]]);
+        for (size_t lane = 0; lane < TriangleBlock::lanes; ++lane)
+            block.set(lane, corners_[order_[range.first + std::min(lane, range.count() - 1)]]);
         return static_cast<uint32_t>(blocks_.push_back(block) - blocks_.begin());
     }
 
-    /// Surface area heuristic in bins along the axis in which the middles spread most; in halves where that does not part them, or too deep.
+    /// Surface area heuristic in bins along the axis in which the middles spread most; in halves where that does not
+    /// part them, or too deep.
     std::pair<Range, Range> split(const Range& range, size_t depth)
     {
         Bounds middles;
         for (size_t i = range.first; i < range.last; ++i) middles.extend(bounds_[order_[i]].middle());
         const V3d spread = V3d(middles.hi) - V3d(middles.lo);
         const int axis = spread.x >= spread.y && spread.x >= spread.z ? 0 : spread.y >= spread.z ? 1 : 2;
-        const auto begin = order_.begin() + static_cast<ptrdiff_t>(range.first), end = order_.begin() + static_cast<ptrdiff_t>(range.last);
+        const auto begin = order_.begin() + static_cast<ptrdiff_t>(range.first),
+                   end = order_.begin() + static_cast<ptrdiff_t>(range.last);
         auto cut = begin;
         if (spread[axis] > 0 && depth < halving_depth) {
             const double low = double{middles.lo[axis]}, per_bin = bins / spread[axis];
-            const auto bin_of = [&](size_t t) { return std::min(bins - 1, static_cast<size_t>((double{bounds_[t].middle()[axis]} - low) * per_bin)); };
+            const auto bin_of = [&](size_t t) {
+                return std::min(bins - 1, static_cast<size_t>((double{bounds_[t].middle()[axis]} - low) * per_bin));
+            };
             std::array<Bounds, bins> bin;
             std::array<size_t, bins> count{};
             for (auto i = begin; i != end; ++i) {
@@ -225,7 +243,9 @@ private:
                 bin[b].extend(bounds_[*i]);
                 ++count[b];
             }
-            const auto cost = [](const Bounds& b, size_t n) { return b.area() * static_cast<double>((n + TriangleBlock::lanes - 1) / TriangleBlock::lanes); };
+            const auto cost = [](const Bounds& b, size_t n) {
+                return b.area() * static_cast<double>((n + TriangleBlock::lanes - 1) / TriangleBlock::lanes);
+            };
             std::array<double, bins> above{}; // of the bins from here on
             Bounds sum;
             size_t n = 0;

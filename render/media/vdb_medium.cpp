@@ -11,7 +11,8 @@ namespace scree {
 namespace {
 
 /// Runs `work` on the opened file and makes what OpenVDB throws an error of ours.
-template <class Work> auto with_file(const std::filesystem::path& path, const Work& work)
+template <class Work>
+auto with_file(const std::filesystem::path& path, const Work& work)
 {
     openvdb::initialize();
     try {
@@ -31,8 +32,10 @@ void require(openvdb::io::File& file, const std::string& name, const std::string
         names.push_back(it.gridName());
         described.push_back(fmt::format("'{}' ({})", it.gridName(), file.readGridMetadata(it.gridName())->valueType()));
     }
-    throw InputError(file.filename(), names.empty() ? "no grid at all" : fmt::format("no grid '{}' but {}", name, join_words(described)),
-                     fmt::format("the grid '{}' of {}", name, key), names.empty() ? "" : fmt::format("\"{}\" names the grid{}", key, did_you_mean(name, names)));
+    throw InputError(file.filename(),
+                     names.empty() ? "no grid at all" : fmt::format("no grid '{}' but {}", name, join_words(described)),
+                     fmt::format("the grid '{}' of {}", name, key),
+                     names.empty() ? "" : fmt::format("\"{}\" names the grid{}", key, did_you_mean(name, names)));
 }
 
 openvdb::GridBase::Ptr read(openvdb::io::File& file, const std::string& name, const std::string& key)
@@ -43,7 +46,8 @@ openvdb::GridBase::Ptr read(openvdb::io::File& file, const std::string& name, co
 
 } // namespace
 
-GridMedium read_vdb_medium(const std::filesystem::path& file, const VdbMediumOptions& options, const RenderSpace& space, const Progress& progress)
+GridMedium read_vdb_medium(const std::filesystem::path& file, const VdbMediumOptions& options, const RenderSpace& space,
+                           const Progress& progress)
 {
     return with_file(file, [&](openvdb::io::File& opened) {
         MediumGrids grids;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/progress.h"
-#include "render/media/grid_medium.h"
 #include "base/render_space.h"
+#include "render/media/grid_medium.h"
 
 #include <Imath/ImathBox.h>
 #include <Imath/ImathMatrix.h>
@@ -15,8 +15,8 @@ namespace scree {
 /// Which grids of an OpenVDB file make a medium.
 struct VdbMediumOptions {
     std::string density = "density"; ///< name of its grid of floats, doubles or vectors of three
-    std::string albedo;              ///< the same types, in 0..1; empty: GridMediumOptions::albedo everywhere
-    std::string g;                   ///< floats or doubles, |g| < 1; empty: GridMediumOptions::g everywhere
+    std::string albedo; ///< the same types, in 0..1; empty: GridMediumOptions::albedo everywhere
+    std::string g; ///< floats or doubles, |g| < 1; empty: GridMediumOptions::g everywhere
     GridMediumOptions medium;
     /// Places in the scene = places in the file * to_scene, as row vectors. Sigma_t is per unit of the scene.
     Imath::M44d to_scene;
@@ -24,9 +24,11 @@ struct VdbMediumOptions {
 
 /// Reads a medium from an OpenVDB file: clouds, smoke, what a simulation wrote.
 ///
-/// Throws InputError naming the file and, where a name is not found, its grids; also for other types of grids, level sets,
-/// transforms that are not linear, densities that are negative or not finite, albedos outside of 0..1 and |g| >= 1. Cancelled.
-GridMedium read_vdb_medium(const std::filesystem::path& file, const VdbMediumOptions& options, const RenderSpace& space, const Progress& progress);
+/// Throws InputError naming the file and, where a name is not found, its grids; also for other types of grids, level
+/// sets, transforms that are not linear, densities that are negative or not finite, albedos outside of 0..1 and |g|
+/// >= 1. Cancelled.
+GridMedium read_vdb_medium(const std::filesystem::path& file, const VdbMediumOptions& options, const RenderSpace& space,
+                           const Progress& progress);
 
 /// A box in the scene around everything that may not be empty: what a scene is laid out by before its media are made.
 ///

@@ -10,10 +10,10 @@ enum class CameraKind : uint8_t { perspective, orthographic };
 struct CameraDescription {
     CameraKind kind = CameraKind::perspective;
     V3d origin{0, -1, 0}, target{0}, up{0, 0, 1};
-    double fov = 35;      ///< perspective: full angle over the shorter side of the picture, degrees
-    double width = 1;     ///< orthographic: of the picture's width
-    double aperture = 0;  ///< diameter of the lens; 0 is a pinhole
-    double focus = 0;     ///< distance that is sharp, along the view; 0: the target's
+    double fov = 35; ///< perspective: full angle over the shorter side of the picture, degrees
+    double width = 1; ///< orthographic: of the picture's width
+    double aperture = 0; ///< diameter of the lens; 0 is a pinhole
+    double focus = 0; ///< distance that is sharp, along the view; 0: the target's
 };
 
 struct CameraRay {
@@ -30,7 +30,8 @@ public:
     CameraRay ray(const V2d& film, const V2d& lens) const;
     /// Distance along the viewing direction.
     double depth(const V3d& point) const { return (point - origin_).dot(forward_); }
-    /// Row-vector matrices, world to camera space (x right, y up, looking along -z) and on to NDC, as OpenEXR stores them.
+    /// Row-vector matrices, world to camera space (x right, y up, looking along -z) and on to NDC, as OpenEXR stores
+    /// them.
     Imath::M44d world_to_camera() const;
     Imath::M44d world_to_ndc() const;
 

@@ -24,8 +24,9 @@ void read_named_shape(const JsonValue& shape, GrainTypeDescription& type)
     std::vector<std::string> names = library_names();
     names.insert(names.begin(), "sphere");
     const std::string nearest = did_you_mean(name, names);
-    shape.fail(fmt::format("\"sphere\", {{\"mesh\": FILE}} or a grain of the library: {}", fmt::join(library_names(), ", ")),
-               nearest.empty() ? "" : nearest.substr(2));
+    shape.fail(
+        fmt::format("\"sphere\", {{\"mesh\": FILE}} or a grain of the library: {}", fmt::join(library_names(), ", ")),
+        nearest.empty() ? "" : nearest.substr(2));
 }
 
 /// {"library": NAME, "triangles", "seed", "parameters"}
@@ -36,11 +37,13 @@ void read_library_shape(const JsonValue& json, GrainTypeDescription& type)
     if (const auto triangles = object.find("triangles")) {
         type.shape.triangles = static_cast<uint64_t>(triangles->integer(least_shape_triangles, most_shape_triangles));
     }
-    if (const auto seed = object.find("seed")) type.shape.seed = static_cast<uint64_t>(seed->integer(0, std::numeric_limits<int64_t>::max()));
+    if (const auto seed = object.find("seed"))
+        type.shape.seed = static_cast<uint64_t>(seed->integer(0, std::numeric_limits<int64_t>::max()));
     if (const auto parameters = object.find("parameters")) {
         JsonObject entries = parameters->object();
         for (const ShapeParameter& parameter : shape_parameters(*type.library)) {
-            if (const auto value = entries.find(parameter.name)) type.shape.parameters[parameter.name] = value->number(parameter.least, parameter.most);
+            if (const auto value = entries.find(parameter.name))
+                type.shape.parameters[parameter.name] = value->number(parameter.least, parameter.most);
         }
         entries.done();
     }

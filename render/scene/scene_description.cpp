@@ -35,14 +35,16 @@ CameraDescription read_camera(const JsonValue& json)
 {
     JsonObject object = json.object();
     CameraDescription camera;
-    if (const auto kind = object.find("kind")) camera.kind = static_cast<CameraKind>(kind->choice({"perspective", "orthographic"}));
+    if (const auto kind = object.find("kind"))
+        camera.kind = static_cast<CameraKind>(kind->choice({"perspective", "orthographic"}));
     camera.origin = object.require("origin").vec3();
     const JsonValue target = object.require("target");
     camera.target = target.vec3();
     if (!((camera.target - camera.origin).length2() > 0)) target.fail("a target away from the origin");
     if (const auto up = object.find("up")) camera.up = read_direction(*up);
     if (!((camera.target - camera.origin).cross(camera.up).length2() > 0)) {
-        throw InputError(json.place(), "an 'up' along the view", "an 'up' across the view", "set \"up\" to another axis");
+        throw InputError(json.place(), "an 'up' along the view", "an 'up' across the view",
+                         "set \"up\" to another axis");
     }
     if (camera.kind == CameraKind::perspective) {
         if (const auto fov = object.find("fov")) {
@@ -104,7 +106,8 @@ LightDescription read_light(const JsonValue& json)
     JsonObject object = json.object();
     LightDescription light;
     light.place = json.place();
-    light.kind = static_cast<Kind>(object.require("kind").choice({"constant", "environment", "distant", "rectangle", "sphere"}));
+    light.kind =
+        static_cast<Kind>(object.require("kind").choice({"constant", "environment", "distant", "rectangle", "sphere"}));
     const auto rgb = [&](const char* key, Color& value) {
         if (const auto found = object.find(key)) value = found->rgb(0, largest);
     };
@@ -165,12 +168,14 @@ void check_type_name(const std::string& name, const std::vector<GrainTypeDescrip
     for (const auto& type : types) names.push_back(type.name);
     if (std::find(names.begin(), names.end(), name) != names.end()) return;
     const std::string nearest = did_you_mean(name, names);
-    where.fail(fmt::format("a grain type of the scene: {}", fmt::join(names, ", ")), nearest.empty() ? "" : nearest.substr(2));
+    where.fail(fmt::format("a grain type of the scene: {}", fmt::join(names, ", ")),
+               nearest.empty() ? "" : nearest.substr(2));
 }
 
 /// by_type: whether each sphere must say its type, as the mixture is explicit and has no map of its own.
 /// The map from type numbers of a dump or tile to grain types.
-void read_file_types(JsonObject& object, const std::vector<GrainTypeDescription>& types, bool by_type, AssemblyDescription& assembly)
+void read_file_types(JsonObject& object, const std::vector<GrainTypeDescription>& types, bool by_type,
+                     AssemblyDescription& assembly)
 {
     if (const auto map = object.find("types")) {
         JsonObject entries = map->object();
@@ -181,7 +186,8 @@ void read_file_types(JsonObject& object, const std::vector<GrainTypeDescription>
         }
         if (assembly.types.empty()) map->fail("a grain type for at least one type of the file");
     } else if (by_type && types.size() != 1) {
-        object.value().fail("the key 'types', which maps the file's types to grain types", "e.g. \"types\": {\"1\": \"" + types[0].name + "\"}");
+        object.value().fail("the key 'types', which maps the file's types to grain types",
+                            "e.g. \"types\": {\"1\": \"" + types[0].name + "\"}");
     }
 }
 
@@ -198,11 +204,13 @@ void read_dump_radius(const JsonValue& radius, AssemblyDescription& assembly)
     }
 }
 
-void read_listed_spheres(const JsonValue& list, const std::vector<GrainTypeDescription>& types, bool by_type, AssemblyDescription& assembly)
+void read_listed_spheres(const JsonValue& list, const std::vector<GrainTypeDescription>& types, bool by_type,
+                         AssemblyDescription& assembly)
 {
     for (const JsonValue& item : list.array()) {
         JsonObject entry = item.object();
-        AssemblyDescription::Sphere sphere{entry.require("center").vec3(), entry.require("radius").number(0, largest), ""};
+        AssemblyDescription::Sphere sphere{entry.require("center").vec3(), entry.require("radius").number(0, largest),
+                                           ""};
         if (const auto type = entry.find("type")) {
             sphere.type = type->string();
             check_type_name(sphere.type, types, *type);
@@ -226,8 +234,10 @@ AssemblyDescription read_assembly(const JsonValue& json, const std::vector<Grain
     } else if (const auto spheres = object.find("spheres")) {
         read_listed_spheres(*spheres, types, by_type, assembly);
     } else if (const auto mesh = object.find("fill")) {
-        AssemblyDescription::Fill fill{mesh->path(), object.require("tile").path(), read_positive(object.require("radius"))};
-        if (const auto seed = object.find("seed")) fill.seed = static_cast<uint64_t>(seed->integer(0, std::numeric_limits<int64_t>::max()));
+        AssemblyDescription::Fill fill{mesh->path(), object.require("tile").path(),
+                                       read_positive(object.require("radius"))};
+        if (const auto seed = object.find("seed"))
+            fill.seed = static_cast<uint64_t>(seed->integer(0, std::numeric_limits<int64_t>::max()));
         if (const auto repair = object.find("repair")) fill.repair = repair->boolean();
         read_file_types(object, types, by_type, assembly);
         assembly.fill = fill;
@@ -243,13 +253,15 @@ void read_grains(const JsonValue& json, SceneDescription& scene)
     JsonObject object = json.object();
     if (const auto unit = object.find("unit")) scene.metres_per_unit = read_unit(*unit);
     JsonObject types = object.require("types").object();
-    for (const std::string& name : types.take_keys()) scene.types.push_back(read_grain_type(name, types.require(name), scene.metres_per_unit));
+    for (const std::string& name : types.take_keys())
+        scene.types.push_back(read_grain_type(name, types.require(name), scene.metres_per_unit));
     if (scene.types.empty()) types.value().fail("at least one grain type");
     std::vector<std::string> names;
     for (const GrainTypeDescription& type : scene.types) names.push_back(type.name);
     if (const auto mixture = object.find("mixture")) scene.mixture = read_mixture(*mixture, names);
     const auto* listed = std::get_if<ExplicitDescription>(&scene.mixture.kind);
-    scene.assembly = read_assembly(object.require("assembly"), scene.types, listed && listed->types.empty() && listed->table.empty());
+    scene.assembly = read_assembly(object.require("assembly"), scene.types,
+                                   listed && listed->types.empty() && listed->table.empty());
     object.done();
 }
 
@@ -257,16 +269,22 @@ IntegratorDescription read_integrator(const JsonValue& json)
 {
     JsonObject object = json.object();
     IntegratorDescription integrator;
-    if (const auto kind = object.find("kind")) integrator.kind = static_cast<IntegratorKind>(kind->choice(integrator_names));
-    if (const auto accuracy = object.find("accuracy")) integrator.accuracy = static_cast<Accuracy>(accuracy->choice(accuracy_names));
-    if (const auto depth = object.find("max_depth")) integrator.max_depth = static_cast<uint32_t>(depth->integer(1, 1000000000));
-    if (const auto grains = object.find("explicit_grains")) integrator.explicit_grains = static_cast<uint32_t>(grains->integer(0, 1000000000));
+    if (const auto kind = object.find("kind"))
+        integrator.kind = static_cast<IntegratorKind>(kind->choice(integrator_names));
+    if (const auto accuracy = object.find("accuracy"))
+        integrator.accuracy = static_cast<Accuracy>(accuracy->choice(accuracy_names));
+    if (const auto depth = object.find("max_depth"))
+        integrator.max_depth = static_cast<uint32_t>(depth->integer(1, 1000000000));
+    if (const auto grains = object.find("explicit_grains"))
+        integrator.explicit_grains = static_cast<uint32_t>(grains->integer(0, 1000000000));
     if (const auto depth = object.find("grain_depth")) integrator.grain_depth = depth->number(0, largest);
     if (const auto pixels = object.find("grain_pixels")) integrator.grain_pixels = pixels->number(0, largest);
     if (const auto flights = object.find("grain_flights")) integrator.grain_flights = flights->number(0, largest);
-    if (const auto form = object.find("medium_form")) integrator.medium_form = static_cast<EquivalentForm>(form->choice(medium_form_names));
+    if (const auto form = object.find("medium_form"))
+        integrator.medium_form = static_cast<EquivalentForm>(form->choice(medium_form_names));
     if (const auto shells = object.find("shells")) integrator.shells = shells->boolean();
-    if (const auto form = object.find("stf_form")) integrator.stf_form = static_cast<StfForm>(form->choice(stf_form_names));
+    if (const auto form = object.find("stf_form"))
+        integrator.stf_form = static_cast<StfForm>(form->choice(stf_form_names));
     if (const auto least = object.find("least_shell")) integrator.least_shell = least->number(0, largest);
     object.done();
     return integrator;

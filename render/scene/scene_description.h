@@ -1,11 +1,11 @@
 #pragma once
 
 #include "mixtures/mixture_description.h"
+#include "render/equivalent/equivalent_form.h"
 #include "render/film/aov.h"
 #include "render/film/filter.h"
 #include "render/grains/library/grain_library.h"
 #include "render/materials/material.h"
-#include "render/equivalent/equivalent_form.h"
 #include "render/scene/camera.h"
 #include "render/stf/stf_form.h"
 
@@ -28,31 +28,31 @@ struct FilmDescription {
 /// A light as the scene file has it, in the scene's unit.
 struct LightDescription {
     enum class Kind : uint8_t { constant, environment, distant, rectangle, sphere } kind = Kind::constant;
-    Color radiance{1};               ///< constant, rectangle, sphere
-    std::filesystem::path file;    ///< environment
-    Color scale{1};                  ///< environment
-    V3d up{0, 0, 1};               ///< environment
-    V3d direction{0, 0, -1};       ///< distant: in which the light travels
-    Color irradiance{1};             ///< distant: on a plane facing it
-    double angle = 0.53;           ///< distant: angular diameter, degrees
+    Color radiance{1}; ///< constant, rectangle, sphere
+    std::filesystem::path file; ///< environment
+    Color scale{1}; ///< environment
+    V3d up{0, 0, 1}; ///< environment
+    V3d direction{0, 0, -1}; ///< distant: in which the light travels
+    Color irradiance{1}; ///< distant: on a plane facing it
+    double angle = 0.53; ///< distant: angular diameter, degrees
     V3d corner{0}, edge1{0}, edge2{0};
     V3d center{0};
     double radius = 0;
-    std::string place;             ///< in the scene file, for messages
+    std::string place; ///< in the scene file, for messages
 };
 
 struct SurfaceDescription {
     std::filesystem::path mesh;
-    Material material;             ///< absorption per unit of length of the scene
+    Material material; ///< absorption per unit of length of the scene
     std::string place;
 };
 
 struct GrainTypeDescription {
     std::string name;
     std::optional<std::filesystem::path> mesh; ///< of the user
-    const LibraryGrain* library = nullptr;     ///< of the library; neither, or one of no triangles: a sphere
-    ShapeOptions shape;                        ///< of the library's mesh
-    Material material;                         ///< absorption per unit of length of the scene
+    const LibraryGrain* library = nullptr; ///< of the library; neither, or one of no triangles: a sphere
+    ShapeOptions shape; ///< of the library's mesh
+    Material material; ///< absorption per unit of length of the scene
     std::string place;
 
     /// Whether its shape is a mesh rather than the bounding sphere.
@@ -73,10 +73,10 @@ struct AssemblyDescription {
         uint64_t seed = 0; ///< of which variant of the tile stands where
         bool repair = false;
     };
-    std::string dump;                               ///< file, glob or printf pattern (or .vdb of points); else empty
+    std::string dump; ///< file, glob or printf pattern (or .vdb of points); else empty
     std::optional<Fill> fill;
-    std::map<int32_t, std::string> types;           ///< the dump's or tile's type number -> name of a grain type
-    std::optional<double> radius;                   ///< for dumps without a radius column
+    std::map<int32_t, std::string> types; ///< the dump's or tile's type number -> name of a grain type
+    std::optional<double> radius; ///< for dumps without a radius column
     std::map<int32_t, double> radius_of_type;
     std::vector<Sphere> spheres;
     std::string place;
@@ -84,13 +84,13 @@ struct AssemblyDescription {
 
 /// A medium that the scene names: the same within a mesh, or varying as a file of OpenVDB grids has it.
 struct MediumDescription {
-    std::filesystem::path mesh, vdb;   ///< one of them
-    Color sigma_t{1};                    ///< mesh: extinction per unit of length; vdb: the same for a density of 1
+    std::filesystem::path mesh, vdb; ///< one of them
+    Color sigma_t{1}; ///< mesh: extinction per unit of length; vdb: the same for a density of 1
     Weight albedo{1};
-    double g = 0;                      ///< of Henyey and Greenstein
-    std::string density = "density";   ///< vdb: names of grids
-    std::string albedo_grid, g_grid;   ///< vdb: empty where it is the same everywhere
-    bool nearest = false;              ///< vdb: no interpolation between voxels
+    double g = 0; ///< of Henyey and Greenstein
+    std::string density = "density"; ///< vdb: names of grids
+    std::string albedo_grid, g_grid; ///< vdb: empty where it is the same everywhere
+    bool nearest = false; ///< vdb: no interpolation between voxels
 };
 
 enum class IntegratorKind : uint8_t { automatic, ept, ppt, vpt, stf };
@@ -104,28 +104,32 @@ inline const std::vector<std::string> accuracy_names{"reference", "high", "stand
 struct IntegratorDescription {
     IntegratorKind kind = IntegratorKind::automatic;
     Accuracy accuracy = Accuracy::standard;
-    uint32_t max_depth = 0;       ///< 0: never cut
+    uint32_t max_depth = 0; ///< 0: never cut
     std::optional<uint32_t> explicit_grains; ///< auto and ppt: how many grains of a path are traced as they are
-    std::optional<double> grain_pixels; ///< auto and ppt, where proxies stand for grains: those that look narrower are proxies from the first on
-    std::optional<double> grain_depth; ///< mean radii below every face, from where on a medium stands for the grains; absent: nowhere, or as auto has it
-    std::optional<double> grain_flights; ///< but not fewer mean free paths of that medium; absent: as auto has it, or none with grain_depth
+    std::optional<double> grain_pixels; ///< auto and ppt, where proxies stand for grains: those that look narrower are
+                                        ///< proxies from the first on
+    std::optional<double> grain_depth; ///< mean radii below every face, from where on a medium stands for the grains;
+                                       ///< absent: nowhere, or as auto has it
+    std::optional<double> grain_flights; ///< but not fewer mean free paths of that medium; absent: as auto has it, or
+                                         ///< none with grain_depth
     EquivalentForm medium_form = EquivalentForm::decay;
 
-    std::optional<bool> shells;        ///< whether light goes through shells in media; absent: with stf and auto
+    std::optional<bool> shells; ///< whether light goes through shells in media; absent: with stf and auto
     StfForm stf_form = StfForm::full;
-    std::optional<double> least_shell; ///< mean free paths that the largest shell of a medium has at least, else it gets none; absent: 1, auto 8 and, in grids, where shells save work
+    std::optional<double> least_shell; ///< mean free paths that the largest shell of a medium has at least, else it
+                                       ///< gets none; absent: 1, auto 8 and, in grids, where shells save work
 };
 
 /// A scene file, read and checked, with paths made absolute; nothing it names has been opened yet.
 struct SceneDescription {
     std::filesystem::path file;
-    std::string canonical;       ///< the JSON without layout: what the scene hash covers
+    std::string canonical; ///< the JSON without layout: what the scene hash covers
     CameraDescription camera;
     FilmDescription film;
     std::vector<LightDescription> lights;
     std::vector<SurfaceDescription> surfaces;
     std::vector<GrainTypeDescription> types; ///< in order of name
-    double metres_per_unit = 1e-3;           ///< what the scene's unit of length is to the library's materials
+    double metres_per_unit = 1e-3; ///< what the scene's unit of length is to the library's materials
     std::optional<AssemblyDescription> assembly;
     MixtureDescription mixture{ExplicitDescription{}, {}, {}}; ///< which grain type each sphere is
     std::vector<MediumDescription> media;

@@ -33,7 +33,8 @@ constexpr uint64_t few_grains = 2000;
 /// Light that meets fewer than these is followed from grain to grain sooner than through a medium.
 constexpr double few_encounters = 4;
 
-/// Where the largest shell has fewer mean free paths, few paths come to where it fits, and what shells are made of costs more than they save.
+/// Where the largest shell has fewer mean free paths, few paths come to where it fits, and what shells are made of
+/// costs more than they save.
 constexpr double worthwhile_shell = 8;
 
 /// A medium pays where there is more of it than of the grains above.
@@ -48,7 +49,8 @@ double half_thickness(const GrainFacts& facts)
 std::string proxies_after(uint32_t grains)
 {
     if (grains == 0) return "proxies stand for grains";
-    return grains == 1 ? "proxies stand for all grains but the first of a path" : fmt::format("proxies stand for all grains but the first {} of a path", grains);
+    return grains == 1 ? "proxies stand for all grains but the first of a path"
+                       : fmt::format("proxies stand for all grains but the first {} of a path", grains);
 }
 
 /// How large the largest grain can look at most, in pixels.
@@ -57,7 +59,9 @@ double largest_in_pixels(const CameraDescription& camera, const FilmDescription&
     const V3d view = (camera.target - camera.origin).normalized();
     double nearest = std::numeric_limits<double>::infinity();
     for (int corner = 0; corner < 8; ++corner) {
-        const V3d p((corner & 1 ? facts.bounds.max : facts.bounds.min).x, (corner & 2 ? facts.bounds.max : facts.bounds.min).y, (corner & 4 ? facts.bounds.max : facts.bounds.min).z);
+        const V3d p((corner & 1 ? facts.bounds.max : facts.bounds.min).x,
+                    (corner & 2 ? facts.bounds.max : facts.bounds.min).y,
+                    (corner & 4 ? facts.bounds.max : facts.bounds.min).z);
         nearest = std::min(nearest, (p - camera.origin).dot(view));
     }
     const PixelSize pixel = pixel_size(camera, film);
@@ -75,7 +79,9 @@ PixelSize pixel_size(const CameraDescription& camera, const FilmDescription& fil
 
 std::string TransportPlan::name() const
 {
-    return kind == IntegratorKind::automatic && explicit_grains == all_grains && !has_grain_medium && !has_shells ? "ept" : integrator_names[static_cast<size_t>(kind)];
+    return kind == IntegratorKind::automatic && explicit_grains == all_grains && !has_grain_medium && !has_shells
+               ? "ept"
+               : integrator_names[static_cast<size_t>(kind)];
 }
 
 uint64_t hash_plan(const TransportPlan& plan)
@@ -110,7 +116,8 @@ double rough_loss(const Material& material, double radius)
     case MaterialKind::lambert: return 1 - max_component(material.reflectance);
     case MaterialKind::dielectric: {
         const Real least = std::min({material.absorption.x, material.absorption.y, material.absorption.z});
-        const double within = 4.0 / 3 * 1.3 * radius; // a mean chord, and half of another on the way that light takes by reflections
+        const double within =
+            4.0 / 3 * 1.3 * radius; // a mean chord, and half of another on the way that light takes by reflections
         return 1 - max_component(material.tint) * std::exp(-least * within);
     }
     case MaterialKind::conductor: return 1 - 0.9 * max_component(material.tint);
@@ -118,7 +125,8 @@ double rough_loss(const Material& material, double radius)
     return 1;
 }
 
-TransportPlan plan_transport(const IntegratorDescription& integrator, const CameraDescription& camera, const FilmDescription& film, const GrainFacts& facts)
+TransportPlan plan_transport(const IntegratorDescription& integrator, const CameraDescription& camera,
+                             const FilmDescription& film, const GrainFacts& facts)
 {
     TransportPlan plan;
     plan.kind = integrator.kind;
@@ -143,14 +151,19 @@ TransportPlan plan_transport(const IntegratorDescription& integrator, const Came
         const Switches switches = switches_of(integrator.accuracy);
         plan.depth_radii = switches.depth_radii;
         plan.depth_flights = switches.depth_flights;
-        if (integrator.accuracy == Accuracy::reference) plan.why = "every grain as it is: the accuracy is that of a reference";
-        else if (facts.count < few_grains) plan.why = fmt::format("every grain as it is: there are fewer than {}", few_grains);
-        else if (facts.encounters() < few_encounters) plan.why = fmt::format("every grain as it is: light meets some {:.2g} of them before it is absorbed", facts.encounters());
+        if (integrator.accuracy == Accuracy::reference)
+            plan.why = "every grain as it is: the accuracy is that of a reference";
+        else if (facts.count < few_grains)
+            plan.why = fmt::format("every grain as it is: there are fewer than {}", few_grains);
+        else if (facts.encounters() < few_encounters)
+            plan.why = fmt::format("every grain as it is: light meets some {:.2g} of them before it is absorbed",
+                                   facts.encounters());
         else {
             plan.explicit_grains = switches.explicit_grains;
             plan.least_pixels = integrator.grain_pixels.value_or(switches.least_pixels);
             plan.why = proxies_after(plan.explicit_grains);
-            if (const double pixels = largest_in_pixels(camera, film, facts); plan.explicit_grains > 0 && pixels < plan.least_pixels) {
+            if (const double pixels = largest_in_pixels(camera, film, facts);
+                plan.explicit_grains > 0 && pixels < plan.least_pixels) {
                 plan.explicit_grains = 0;
                 plan.why = fmt::format("{}: the largest looks {:.2g} pixels wide", proxies_after(0), pixels);
             } else if (plan.explicit_grains == 0) {
@@ -174,9 +187,12 @@ TransportPlan plan_transport(const IntegratorDescription& integrator, const Came
         plan.has_grain_medium = half_thickness(facts) > plan.depth_radii * facts.mean_radius;
         plan.why_no_medium = fmt::format("no place is {:g} mean radii deep", plan.depth_radii);
     }
-    plan.has_shells = integrator.shells.value_or(integrator.kind == IntegratorKind::stf || (integrator.kind == IntegratorKind::automatic && integrator.accuracy != Accuracy::reference));
+    plan.has_shells = integrator.shells.value_or(
+        integrator.kind == IntegratorKind::stf ||
+        (integrator.kind == IntegratorKind::automatic && integrator.accuracy != Accuracy::reference));
     if (integrator.kind == IntegratorKind::automatic && !integrator.shells) plan.least_shell = worthwhile_shell;
-    plan.shells_must_pay = integrator.kind == IntegratorKind::automatic && !integrator.shells && !integrator.least_shell;
+    plan.shells_must_pay =
+        integrator.kind == IntegratorKind::automatic && !integrator.shells && !integrator.least_shell;
     plan.least_shell = integrator.least_shell.value_or(plan.least_shell);
     if (!plan.has_grains) plan.why = plan.why_no_medium = "the scene has no grains";
     if (plan.has_grain_medium) plan.why_no_medium.clear();

@@ -5,7 +5,7 @@ namespace scree {
 namespace {
 
 constexpr double least_albedo = 0.8; ///< that samplers are made for, where it varies: below, shells carry little
-constexpr double albedo_step = 2;  ///< of -log(albedo), where it varies
+constexpr double albedo_step = 2; ///< of -log(albedo), where it varies
 
 /// The albedos, growing, that records are drawn by in a medium of varying albedo: the last is not below any of it.
 std::vector<double> sampled_albedos(double low, double high)
@@ -36,12 +36,14 @@ MediumShells::MediumShells(std::shared_ptr<const Stf> stf, const HomogeneousMedi
     everywhere_.sigma_t = medium.sigma_t().x;
     everywhere_.albedo = medium.albedo();
     everywhere_.sampled_albedo = max_component(medium.albedo());
-    everywhere_.phase = stfs_[0]->phase; // not the medium's: what light is weighed by is what the records were drawn from
+    everywhere_.phase =
+        stfs_[0]->phase; // not the medium's: what light is weighed by is what the records were drawn from
     add_samplers(*stfs_[0], everywhere_.sampled_albedo, count);
     bytes_ += stfs_[0]->bytes();
 }
 
-MediumShells::MediumShells(std::vector<std::shared_ptr<const Stf>> stfs, std::unique_ptr<const MediumPyramid> medium, size_t count, StfForm form)
+MediumShells::MediumShells(std::vector<std::shared_ptr<const Stf>> stfs, std::unique_ptr<const MediumPyramid> medium,
+                           size_t count, StfForm form)
     : form_(form), stfs_(std::move(stfs)), grid_(std::move(medium))
 {
     const MediumPyramid::Extremes& extremes = grid_->extremes();
@@ -110,7 +112,8 @@ bool MediumShells::fit_in_grid(const V3d& place, double clear, double u, Fitting
         fitting.phase = PhaseFunction(g);
         fitting.radius = radius;
     } else {
-        const auto above = std::ranges::upper_bound(stfs_, g, {}, [](const auto& stf) { return stf->phase.mean_cosine(); });
+        const auto above =
+            std::ranges::upper_bound(stfs_, g, {}, [](const auto& stf) { return stf->phase.mean_cosine(); });
         size_t of = above == stfs_.begin() ? 0 : static_cast<size_t>(above - stfs_.begin()) - 1;
         if (above != stfs_.begin() && above != stfs_.end()) {
             const double g0 = stfs_[of]->phase.mean_cosine(), part = (g - g0) / ((*above)->phase.mean_cosine() - g0);

@@ -12,8 +12,8 @@ namespace scree {
 /// A shell around a place, and the medium in it.
 struct FittingShell {
     const ShellSampler* shell = nullptr; ///< null with the diffusion form
-    double length = 0;     ///< radius
-    double radius = 0;     ///< in mean free paths
+    double length = 0; ///< radius
+    double radius = 0; ///< in mean free paths
     double sigma_t = 0;
     Weight albedo{1};
     double sampled_albedo = 1; ///< that the shell's records are drawn by; no channel's is larger
@@ -40,12 +40,15 @@ struct SameBall {
     double radius() const { return std::min(length, Stf::radius(number) / mean.sigma_t); }
 };
 
-/// Finds a ball around a place, where nothing but the medium is within `clear`; false: none has room for a shell. count: of shells there are.
+/// Finds a ball around a place, where nothing but the medium is within `clear`; false: none has room for a shell.
+/// count: of shells there are.
 bool fit_ball(const MediumPyramid& medium, const V3d& place, double clear, size_t count, SameBall& ball);
 
-/// What light reaches a shell in a medium of grids from outside of a clear ball, `beyond` larger than it: how often light is to be looked for.
+/// What light reaches a shell in a medium of grids from outside of a clear ball, `beyond` larger than it: how often
+/// light is to be looked for.
 ///
-/// The grid may be thinner there: then this is a guess, and must not be so low that the light it lets through counts for much.
+/// The grid may be thinner there: then this is a guess, and must not be so low that the light it lets through counts
+/// for much.
 inline double light_reaching(double beyond, double sigma_t) { return std::max(0.1, std::exp(-sigma_t * beyond)); }
 
 /// The shells that light may go through in a medium, which is achromatic; safe to use from many threads.
@@ -53,10 +56,13 @@ class MediumShells {
 public:
     /// stf: of the medium's phase function (or, by form, of one that stands for it). count: of its shells to use.
     MediumShells(std::shared_ptr<const Stf> stf, const HomogeneousMedium& medium, size_t count, StfForm form);
-    /// stfs: of growing g, from the least to the largest in the medium; a shell where g is between two is of either, by chance.
-    MediumShells(std::vector<std::shared_ptr<const Stf>> stfs, std::unique_ptr<const MediumPyramid> medium, size_t count, StfForm form);
+    /// stfs: of growing g, from the least to the largest in the medium; a shell where g is between two is of either, by
+    /// chance.
+    MediumShells(std::vector<std::shared_ptr<const Stf>> stfs, std::unique_ptr<const MediumPyramid> medium,
+                 size_t count, StfForm form);
 
-    /// The largest shell around a place, where nothing but the medium is within `clear`. False: none fits. u: in (0, 1), where the choice is left to chance.
+    /// The largest shell around a place, where nothing but the medium is within `clear`. False: none fits. u: in (0,
+    /// 1), where the choice is left to chance.
     bool fit(const V3d& place, double clear, double u, FittingShell& fitting) const;
 
     /// Of the smallest ball that may hold a shell.
@@ -78,8 +84,8 @@ private:
     uint64_t bytes_ = 0;
     std::vector<std::shared_ptr<const Stf>> stfs_;
     std::vector<Samplers> samplers_; ///< by stf, and within by albedo
-    std::vector<double> albedos_;    ///< that they are for, growing
-    FittingShell everywhere_;        ///< of a homogeneous medium
+    std::vector<double> albedos_; ///< that they are for, growing
+    FittingShell everywhere_; ///< of a homogeneous medium
     std::unique_ptr<const MediumPyramid> grid_;
 };
 

@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "base/sampler.h"
-#include "render/stf/medium_shells.h"
 #include "base/warp.h"
+#include "render/stf/medium_shells.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
@@ -16,11 +16,13 @@ namespace scree {
 namespace {
 
 constexpr uint32_t walks = 64, most_walks = 1 << 14; ///< at a time and in all: some meet next to nothing
-constexpr uint64_t enough = 1 << 16;                 ///< scatterings of all walks
-constexpr uint32_t most_scatterings = 2048;          ///< of a walk: the longest are cut short, which takes from what shells seem to save
+constexpr uint64_t enough = 1 << 16; ///< scatterings of all walks
+constexpr uint32_t most_scatterings =
+    2048; ///< of a walk: the longest are cut short, which takes from what shells seem to save
 
-// In scatterings that look for no light. With these work() is within 15 % (root mean square) of what shells made of the time of 27 renderings: a cloud, and
-// balls of constant, growing, waving and soft density, 20 to 600 mean free paths through, under a sun and under a white sky. The variance of a path stays.
+// In scatterings that look for no light. With these work() is within 15 % (root mean square) of what shells made of the
+// time of 27 renderings: a cloud, and balls of constant, growing, waving and soft density, 20 to 600 mean free paths
+// through, under a sun and under a white sky. The variance of a path stays.
 constexpr double query_cost = 0.2, shell_cost = 4, light_cost = 1; ///< of light: of looking for it once
 
 struct Ray {
@@ -64,10 +66,13 @@ double ShellForecast::work(bool lights) const
 {
     const double light = lights ? light_cost : 0, all = static_cast<double>(scatterings) * (1 + light);
     if (scatterings == 0) return 1;
-    return 1 + (query_cost * static_cast<double>(queries) + shell_cost * static_cast<double>(shells) + light * static_cast<double>(lit) - (1 + light) * static_cast<double>(skipped)) / all;
+    return 1 + (query_cost * static_cast<double>(queries) + shell_cost * static_cast<double>(shells) +
+                light * static_cast<double>(lit) - (1 + light) * static_cast<double>(skipped)) /
+                   all;
 }
 
-ShellForecast forecast_shells(const GridMedium& medium, const MediumPyramid& pyramid, const Imath::Box3d& box, const ClearanceField& clearance, size_t count, const Progress& progress)
+ShellForecast forecast_shells(const GridMedium& medium, const MediumPyramid& pyramid, const Imath::Box3d& box,
+                              const ClearanceField& clearance, size_t count, const Progress& progress)
 {
     const double least = 1 / pyramid.extremes().sigma_t_high;
     const auto walk = [&](uint32_t number, ShellForecast& sum) {
@@ -82,7 +87,8 @@ ShellForecast forecast_shells(const GridMedium& medium, const MediumPyramid& pyr
             if (radius > 0) {
                 const V3d from = ray.o - centre;
                 const double along = from.dot(ray.d);
-                end = std::min(out, std::max(0.0, -along + std::sqrt(std::max(0.0, along * along + radius * radius - from.length2()))));
+                end = std::min(out, std::max(0.0, -along + std::sqrt(std::max(0.0, along * along + radius * radius -
+                                                                                       from.length2()))));
             }
             const MediumEvent event = medium.event(ray.o, ray.d, 0, end, state, sampler);
             if (!event.scattered && (radius == 0 || end == out)) return;
@@ -103,21 +109,26 @@ ShellForecast forecast_shells(const GridMedium& medium, const MediumPyramid& pyr
             centre = ray.o;
             if (radius == 0) continue;
             ++sum.shells;
-            if (sampler.next() < -std::expm1(-radius * same.mean.sigma_t) * light_reaching(clear - radius, same.mean.sigma_t)) ++sum.lit;
+            if (sampler.next() <
+                -std::expm1(-radius * same.mean.sigma_t) * light_reaching(clear - radius, same.mean.sigma_t))
+                ++sum.lit;
         }
     };
     const auto add = [](const ShellForecast& a, const ShellForecast& b) {
-        return ShellForecast{a.scatterings + b.scatterings, a.queries + b.queries, a.shells + b.shells, a.skipped + b.skipped, a.lit + b.lit};
+        return ShellForecast{a.scatterings + b.scatterings, a.queries + b.queries, a.shells + b.shells,
+                             a.skipped + b.skipped, a.lit + b.lit};
     };
     ShellForecast sum;
     for (uint32_t first = 0; first < most_walks && sum.scatterings < enough; first += walks) {
         sum = add(sum, tbb::parallel_reduce(
-            tbb::blocked_range<uint32_t>(first, first + walks), ShellForecast{},
-            [&](const tbb::blocked_range<uint32_t>& range, ShellForecast part) {
-                for (uint32_t number = range.begin(); number != range.end() && !progress.cancelled(); ++number) walk(number, part);
-                return part;
-            },
-            add));
+                           tbb::blocked_range<uint32_t>(first, first + walks), ShellForecast{},
+                           [&](const tbb::blocked_range<uint32_t>& range, ShellForecast part) {
+                               for (uint32_t number = range.begin(); number != range.end() && !progress.cancelled();
+                                    ++number)
+                                   walk(number, part);
+                               return part;
+                           },
+                           add));
         if (progress.cancelled()) throw Cancelled();
     }
     return sum;

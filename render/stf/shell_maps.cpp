@@ -50,7 +50,8 @@ struct Tally {
     void add(const ShellExit& exit)
     {
         const double x = exit.away, y = exit.across, squared = std::max(0.0, 1 - x * x - y * y);
-        const auto row = std::min(ShellMaps::rows - 1, static_cast<uint32_t>(0.5 * (1 - double{exit.cos_t}) * ShellMaps::rows));
+        const auto row =
+            std::min(ShellMaps::rows - 1, static_cast<uint32_t>(0.5 * (1 - double{exit.cos_t}) * ShellMaps::rows));
         ++counts[row][DirectionMap::cell(x, y)];
         distance.add(squared, 1);
         cosine += std::sqrt(squared);
@@ -93,7 +94,8 @@ DirectionMap::DirectionMap(const std::array<uint64_t, cells>& counts)
     if (count_ == 0) return;
     for (uint32_t i = 0; i < cells; ++i) {
         const uint32_t mirrored = (side - 1 - i / side) * side + i % side;
-        density_[i] = 0.5 * static_cast<double>(counts[i] + counts[mirrored]) / static_cast<double>(count_) * cells / pi;
+        density_[i] =
+            0.5 * static_cast<double>(counts[i] + counts[mirrored]) / static_cast<double>(count_) * cells / pi;
     }
 }
 

@@ -31,8 +31,8 @@ private:
     double weights_ = 0, squares_ = 0;
 };
 
-/// Directions about a shell's normal in cells of equal projected solid angle: the disc of their tangential components (x: along growing
-/// theta_t, y: across) mapped to the square by Shirley and Chiu's concentric map (1997).
+/// Directions about a shell's normal in cells of equal projected solid angle: the disc of their tangential components
+/// (x: along growing theta_t, y: across) mapped to the square by Shirley and Chiu's concentric map (1997).
 ///
 /// Mirror images in y are equal, as they are in a shell.
 class DirectionMap {
@@ -63,7 +63,8 @@ private:
 
 /// Where light goes that leaves a shell after two scatterings and more, by the place it leaves at.
 struct ShellMaps {
-    static constexpr uint32_t rows = 6; ///< bins of equal width of cos theta_t, from 1 down to -1: of equal area on the shell
+    static constexpr uint32_t rows =
+        6; ///< bins of equal width of cos theta_t, from 1 down to -1: of equal area on the shell
 
     double radius = 0; ///< in mean free paths
     uint64_t walks = 0; ///< that leave after two scatterings and more
@@ -72,7 +73,8 @@ struct ShellMaps {
     std::array<DirectionMap, rows> by_theta{};
 };
 
-/// Makes as many such walks, by those of the smaller shells of `stf`, which must be there; the same for any number of threads.
+/// Makes as many such walks, by those of the smaller shells of `stf`, which must be there; the same for any number of
+/// threads.
 ///
 /// number: of the shell. walks: 1 .. 2^32. Throws Cancelled.
 ShellMaps map_shell(const Stf& stf, size_t number, uint64_t walks, uint64_t seed, const Progress& progress);

@@ -4,9 +4,11 @@ namespace scree {
 
 namespace {
 
-/// Weights times albedo^events, and the mean of that by weight: 1 where nothing is lost, whatever the weights' sum is rounded to.
+/// Weights times albedo^events, and the mean of that by weight: 1 where nothing is lost, whatever the weights' sum is
+/// rounded to.
 template <class Record>
-std::vector<double> weigh(const std::vector<Record>& records, const std::vector<float>& weights, double albedo, double& mean)
+std::vector<double> weigh(const std::vector<Record>& records, const std::vector<float>& weights, double albedo,
+                          double& mean)
 {
     std::vector<double> weighed(records.size());
     double sum = 0, all = 0;

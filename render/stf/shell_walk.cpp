@@ -6,7 +6,10 @@ namespace {
 
 class Walk {
 public:
-    Walk(const PhaseFunction& phase, double radius, Sampler& sampler) : phase_(phase), radius_(radius), sampler_(sampler) {}
+    Walk(const PhaseFunction& phase, double radius, Sampler& sampler)
+        : phase_(phase), radius_(radius), sampler_(sampler)
+    {
+    }
 
     ShellWalk run(std::span<const ShellSampler> smaller)
     {
@@ -80,9 +83,11 @@ private:
     {
         walk_.event_sum += weight;
         if (sampler_.next() * walk_.event_sum >= weight) return;
-        const double aside = std::hypot(place.x, place.y), c = aside > 0 ? place.x / aside : 1, s = aside > 0 ? place.y / aside : 0;
+        const double aside = std::hypot(place.x, place.y), c = aside > 0 ? place.x / aside : 1,
+                     s = aside > 0 ? place.y / aside : 0;
         walk_.event = {static_cast<float>(place.z), static_cast<float>(aside),
-                       V3f(V3d(direction.x * c + direction.y * s, direction.y * c - direction.x * s, direction.z)), events};
+                       V3f(V3d(direction.x * c + direction.y * s, direction.y * c - direction.x * s, direction.z)),
+                       events};
     }
 
     const PhaseFunction& phase_;
@@ -96,7 +101,8 @@ private:
 
 } // namespace
 
-ShellWalk walk_in_shell(const PhaseFunction& phase, double radius, std::span<const ShellSampler> smaller, Sampler& sampler)
+ShellWalk walk_in_shell(const PhaseFunction& phase, double radius, std::span<const ShellSampler> smaller,
+                        Sampler& sampler)
 {
     return Walk(phase, radius, sampler).run(smaller);
 }

@@ -9,13 +9,14 @@ namespace scree {
 
 /// One lossless walk from a shell's centre to its surface.
 struct ShellWalk {
-    ShellExit exit;            ///< exit.events 0: it went straight through
-    ShellEvent event;          ///< one of its scatterings, drawn by closeness
-    double event_sum = 0;      ///< of the closeness of all
+    ShellExit exit; ///< exit.events 0: it went straight through
+    ShellEvent event; ///< one of its scatterings, drawn by closeness
+    double event_sum = 0; ///< of the closeness of all
 };
 
-/// Walks in a shell of `radius` mean free paths. smaller: shells that the walk may use, of albedo 1 and growing radius, or none: then
-/// every scattering is simulated.
-ShellWalk walk_in_shell(const PhaseFunction& phase, double radius, std::span<const ShellSampler> smaller, Sampler& sampler);
+/// Walks in a shell of `radius` mean free paths. smaller: shells that the walk may use, of albedo 1 and growing radius,
+/// or none: then every scattering is simulated.
+ShellWalk walk_in_shell(const PhaseFunction& phase, double radius, std::span<const ShellSampler> smaller,
+                        Sampler& sampler);
 
 } // namespace scree

@@ -6,7 +6,8 @@ uint64_t Stf::bytes() const
 {
     uint64_t sum = 0;
     for (const StfShell& shell : shells) {
-        sum += shell.exits.size() * (sizeof(ShellExit) + sizeof(float)) + shell.events.size() * (sizeof(ShellEvent) + sizeof(float));
+        sum += shell.exits.size() * (sizeof(ShellExit) + sizeof(float)) +
+               shell.events.size() * (sizeof(ShellEvent) + sizeof(float));
     }
     return sum;
 }

@@ -8,34 +8,37 @@
 
 namespace scree {
 
-// Shell transport functions (Moon et al. 2007; Müller et al. 2016): what becomes of light that sets out from the centre of a ball
-// of a homogeneous medium. Lengths are in mean free paths; the light sets out along +z; places lie in the plane of x and z, x not negative.
+// Shell transport functions (Moon et al. 2007; Müller et al. 2016): what becomes of light that sets out from the centre
+// of a ball of a homogeneous medium. Lengths are in mean free paths; the light sets out along +z; places lie in the
+// plane of x and z, x not negative.
 
 /// How a walk left a shell.
 struct ShellExit {
-    float cos_t = 1;     ///< of the angle theta_t between the axis and the place, seen from the centre
-    float away = 0;      ///< component of the direction along growing theta_t
-    float across = 0;    ///< and along y; the third, outwards, is not negative
-    float flight = 0;    ///< length of the way since the last scattering
-    float cosine = 1;    ///< of the last scattering's angle
+    float cos_t = 1; ///< of the angle theta_t between the axis and the place, seen from the centre
+    float away = 0; ///< component of the direction along growing theta_t
+    float across = 0; ///< and along y; the third, outwards, is not negative
+    float flight = 0; ///< length of the way since the last scattering
+    float cosine = 1; ///< of the last scattering's angle
     uint32_t events = 0; ///< scatterings; at least 1
 };
 
 /// A scattering within a shell.
 struct ShellEvent {
-    float along = 0, aside = 0;      ///< place: z and x
-    V3f direction{0, 0, 1};          ///< before the scattering
-    uint32_t events = 0;             ///< scatterings up to here, this one counted; at least 1
+    float along = 0, aside = 0; ///< place: z and x
+    V3f direction{0, 0, 1}; ///< before the scattering
+    uint32_t events = 0; ///< scatterings up to here, this one counted; at least 1
 };
 
-/// Walks in a shell of one radius that scatter at least once, the part 1 - exp(-radius) of all; lossless, so that an albedo is a weight albedo^events.
+/// Walks in a shell of one radius that scatter at least once, the part 1 - exp(-radius) of all; lossless, so that an
+/// albedo is a weight albedo^events.
 struct StfShell {
     double radius = 0;
     std::vector<ShellExit> exits;
-    std::vector<float> exit_weights;  ///< sum to 1
-    std::vector<ShellEvent> events;   ///< scatterings of walks, drawn by their closeness(): where light from outside may reach them
+    std::vector<float> exit_weights; ///< sum to 1
+    std::vector<ShellEvent>
+        events; ///< scatterings of walks, drawn by their closeness(): where light from outside may reach them
     std::vector<float> event_weights; ///< sum to 1
-    double event_sum = 0;             ///< mean over walks of the sum of closeness over their scatterings
+    double event_sum = 0; ///< mean over walks of the sum of closeness over their scatterings
 
     double closeness(const ShellEvent& event) const { return std::exp(std::hypot(event.along, event.aside) - radius); }
 };
@@ -60,7 +63,8 @@ public:
     uint64_t bytes() const;
 };
 
-/// The axes of a shell around a way that goes on along `axis`: turned about it, and mirrored or not, as u in 0..1 has it.
+/// The axes of a shell around a way that goes on along `axis`: turned about it, and mirrored or not, as u in 0..1 has
+/// it.
 class ShellFrame {
 public:
     ShellFrame(const V3d& axis, double u) : frame_(axis), mirror_(u < 0.5 ? 1 : -1)

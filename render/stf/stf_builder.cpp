@@ -14,7 +14,8 @@ namespace scree {
 namespace {
 
 /// The walks of a shell; a walk that does not scatter is made again.
-std::vector<ShellWalk> walk_all(const PhaseFunction& phase, size_t shell, std::span<const ShellSampler> smaller, const StfOptions& options, const Progress& progress)
+std::vector<ShellWalk> walk_all(const PhaseFunction& phase, size_t shell, std::span<const ShellSampler> smaller,
+                                const StfOptions& options, const Progress& progress)
 {
     std::vector<ShellWalk> walks(options.walks);
     constexpr uint64_t block = 1024;
@@ -35,15 +36,18 @@ template <class Key>
 void sort_runs(std::vector<uint32_t>& order, size_t length, const Key& key)
 {
     for (size_t i = 0; i < order.size(); i += length) {
-        const auto first = order.begin() + static_cast<std::ptrdiff_t>(i), last = order.begin() + static_cast<std::ptrdiff_t>(std::min(i + length, order.size()));
+        const auto first = order.begin() + static_cast<std::ptrdiff_t>(i),
+                   last = order.begin() + static_cast<std::ptrdiff_t>(std::min(i + length, order.size()));
         std::sort(first, last, [&](uint32_t a, uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
     }
 }
 
-/// Keeps `count` of the records, evenly by their mass among those of a like number of events, a like place and a like direction; what leaves after few
-/// events is kept more often than by its mass (a quarter of all evenly over the logarithm of the quantile), as it counts for more where light is absorbed.
+/// Keeps `count` of the records, evenly by their mass among those of a like number of events, a like place and a like
+/// direction; what leaves after few events is kept more often than by its mass (a quarter of all evenly over the
+/// logarithm of the quantile), as it counts for more where light is absorbed.
 template <class Record, class Place, class Direction>
-void thin(const std::vector<Record>& records, const std::vector<double>& mass, uint32_t count, const Place& place, const Direction& direction, std::vector<Record>& kept, std::vector<float>& weights)
+void thin(const std::vector<Record>& records, const std::vector<double>& mass, uint32_t count, const Place& place,
+          const Direction& direction, std::vector<Record>& kept, std::vector<float>& weights)
 {
     std::vector<uint32_t> order(records.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -51,7 +55,8 @@ void thin(const std::vector<Record>& records, const std::vector<double>& mass, u
     sort_runs(order, order.size(), [&](uint32_t i) { return records[i].events; });
     sort_runs(order, like_events, [&](uint32_t i) { return place(records[i]); });
     sort_runs(order, like_places, [&](uint32_t i) { return direction(records[i]); });
-    const double total = std::accumulate(mass.begin(), mass.end(), 0.0), least = 1.0 / static_cast<double>(records.size()), scale = 1 - std::log(least);
+    const double total = std::accumulate(mass.begin(), mass.end(), 0.0),
+                 least = 1.0 / static_cast<double>(records.size()), scale = 1 - std::log(least);
     const auto density = [&](double quantile) { return 0.75 + 0.25 / (scale * std::max(quantile, least)); };
     std::vector<double> share(order.size());
     double before = 0, all = 0;
@@ -77,14 +82,17 @@ void thin(const std::vector<Record>& records, const std::vector<double>& mass, u
 
 constexpr double most_cut = 1.25; ///< sum of tilted weights: beyond, there are too few records to tell how to tilt
 
-/// Tilts the weights of exits so that two means are exact, which the noise of walks puts off and larger shells would add up.
+/// Tilts the weights of exits so that two means are exact, which the noise of walks puts off and larger shells would
+/// add up.
 ///
-/// Along any walk (1 - g) x + w (in mean free paths, w the direction) keeps its mean, and so does |x|^2 + 2 x.w / (1 - g) - 2 n / (1 - g) after n scatterings. So
-/// over all light from a centre (1 - g) R E[cos theta_t] + E[cos(w, axis)] = 1 and E[n] = (1 - g) R^2 / 2 + R E[cos(w, normal)].
+/// Along any walk (1 - g) x + w (in mean free paths, w the direction) keeps its mean, and so does |x|^2 + 2 x.w / (1 -
+/// g) - 2 n / (1 - g) after n scatterings. So over all light from a centre (1 - g) R E[cos theta_t] + E[cos(w, axis)] =
+/// 1 and E[n] = (1 - g) R^2 / 2 + R E[cos(w, normal)].
 void calibrate(double g, StfShell& shell)
 {
     const double radius = shell.radius, straight = std::exp(-radius), scattered = -std::expm1(-radius);
-    const double drift = (1 - straight * ((1 - g) * radius + 1)) / scattered, growth = (0.5 * (1 - g) * radius * radius + straight * radius) / scattered;
+    const double drift = (1 - straight * ((1 - g) * radius + 1)) / scattered,
+                 growth = (0.5 * (1 - g) * radius * radius + straight * radius) / scattered;
     double cosine = 0, events = 0, out = 0;
     const size_t n = shell.exits.size();
     std::vector<double> along(n), excess(n); // of the two sums that are known
@@ -101,7 +109,8 @@ void calibrate(double g, StfShell& shell)
     // Two linear equations for the tilt by cos theta_t and by events.
     double a00 = 0, a01 = 0, a10 = 0, a11 = 0, b0 = drift, b1 = growth;
     for (size_t i = 0; i < n; ++i) {
-        const double w = shell.exit_weights[i], u = shell.exits[i].cos_t - cosine, v = shell.exits[i].events / events - 1;
+        const double w = shell.exit_weights[i], u = shell.exits[i].cos_t - cosine,
+                     v = shell.exits[i].events / events - 1;
         a00 += w * u * along[i];
         a01 += w * v * along[i];
         a10 += w * u * excess[i];
@@ -110,12 +119,14 @@ void calibrate(double g, StfShell& shell)
         b1 -= w * excess[i];
     }
     const double determinant = a00 * a11 - a01 * a10;
-    if (!(std::abs(determinant) > 1e-6 * (std::abs(a00 * a11) + std::abs(a01 * a10)))) return; // the records do not tell the two apart
+    if (!(std::abs(determinant) > 1e-6 * (std::abs(a00 * a11) + std::abs(a01 * a10))))
+        return; // the records do not tell the two apart
     const double by_cosine = (b0 * a11 - b1 * a01) / determinant, by_events = (a00 * b1 - a10 * b0) / determinant;
     std::vector<double> tilted(n);
     double sum = 0; // 1, unless some are cut off at 0: then the means are only nearer to what they should be
     for (size_t i = 0; i < n; ++i) {
-        const double tilt = 1 + by_cosine * (shell.exits[i].cos_t - cosine) + by_events * (shell.exits[i].events / events - 1);
+        const double tilt =
+            1 + by_cosine * (shell.exits[i].cos_t - cosine) + by_events * (shell.exits[i].events / events - 1);
         tilted[i] = shell.exit_weights[i] * std::max(0.0, tilt);
         sum += tilted[i];
     }
@@ -123,7 +134,8 @@ void calibrate(double g, StfShell& shell)
     for (size_t i = 0; i < n; ++i) shell.exit_weights[i] = static_cast<float>(tilted[i] / sum);
 }
 
-StfShell make_shell(const PhaseFunction& phase, size_t number, std::span<const ShellSampler> smaller, const StfOptions& options, const Progress& progress)
+StfShell make_shell(const PhaseFunction& phase, size_t number, std::span<const ShellSampler> smaller,
+                    const StfOptions& options, const Progress& progress)
 {
     const std::vector<ShellWalk> walks = walk_all(phase, number, smaller, options, progress);
     StfShell shell;
@@ -138,9 +150,13 @@ StfShell make_shell(const PhaseFunction& phase, size_t number, std::span<const S
         shell.event_sum += walk.event_sum;
     }
     shell.event_sum /= static_cast<double>(walks.size());
-    thin(exits, std::vector<double>(walks.size(), 1.0), options.records, [](const ShellExit& e) { return e.cos_t; }, [](const ShellExit& e) { return e.away; }, shell.exits, shell.exit_weights);
+    thin(
+        exits, std::vector<double>(walks.size(), 1.0), options.records, [](const ShellExit& e) { return e.cos_t; },
+        [](const ShellExit& e) { return e.away; }, shell.exits, shell.exit_weights);
     calibrate(phase.mean_cosine(), shell);
-    thin(events, mass, options.records, [](const ShellEvent& e) { return e.along; }, [](const ShellEvent& e) { return e.direction.z; }, shell.events, shell.event_weights);
+    thin(
+        events, mass, options.records, [](const ShellEvent& e) { return e.along; },
+        [](const ShellEvent& e) { return e.direction.z; }, shell.events, shell.event_weights);
     return shell;
 }
 
@@ -148,8 +164,11 @@ StfShell make_shell(const PhaseFunction& phase, size_t number, std::span<const S
 
 std::vector<double> extend_stf(Stf& stf, size_t shells, const StfOptions& options, const Progress& progress)
 {
-    if (options.walks < 1u << 10 || options.walks > 1u << 24 || options.records < 1u << 6 || options.records > 1u << 20) {
-        throw InputError("shell transport functions", fmt::format("{} walks, {} records", options.walks, options.records), "2^10 to 2^24 walks, 2^6 to 2^20 records");
+    if (options.walks < 1u << 10 || options.walks > 1u << 24 || options.records < 1u << 6 ||
+        options.records > 1u << 20) {
+        throw InputError("shell transport functions",
+                         fmt::format("{} walks, {} records", options.walks, options.records),
+                         "2^10 to 2^24 walks, 2^6 to 2^20 records");
     }
     stf.shells.reserve(shells); // samplers point at them
     std::vector<ShellSampler> smaller;
@@ -158,7 +177,8 @@ std::vector<double> extend_stf(Stf& stf, size_t shells, const StfOptions& option
     while (stf.shells.size() < shells) {
         const Stopwatch watch;
         const size_t number = stf.shells.size();
-        progress.update(fmt::format("shell of {:.3g} mean free paths", Stf::radius(number)), static_cast<double>(number) / static_cast<double>(shells));
+        progress.update(fmt::format("shell of {:.3g} mean free paths", Stf::radius(number)),
+                        static_cast<double>(number) / static_cast<double>(shells));
         stf.shells.push_back(make_shell(stf.phase, number, smaller, options, progress));
         smaller.emplace_back(stf.shells.back(), 1.0);
         seconds.push_back(watch.seconds());

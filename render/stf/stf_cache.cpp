@@ -1,7 +1,7 @@
 #include "render/stf/stf_cache.h"
 
-#include "base/error.h"
 #include "base/content_hash.h"
+#include "base/error.h"
 #include "render/stf/stf_file.h"
 
 #include <fmt/format.h>
@@ -15,14 +15,17 @@ uint64_t StfCache::key(double g, const PhaseTable* table) const
     add(options_.walks);
     add(options_.records);
     add(options_.seed);
-    if (table) add(table->table().density);
-    else add(g);
+    if (table)
+        add(table->table().density);
+    else
+        add(g);
     return key;
 }
 
 std::filesystem::path StfCache::file(uint64_t key) const { return folder_ / fmt::format("stf-{:016x}.bin", key); }
 
-StfCache::Found StfCache::find(double g, const std::shared_ptr<const PhaseTable>& table, size_t shells, const Progress& progress)
+StfCache::Found StfCache::find(double g, const std::shared_ptr<const PhaseTable>& table, size_t shells,
+                               const Progress& progress)
 {
     const uint64_t k = key(g, table.get());
     Found found;

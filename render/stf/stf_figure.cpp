@@ -23,13 +23,15 @@ struct Layout {
     int left, top, pitch, gap; // of the discs
     int caption_top;
 
-    Layout(int width, int height, int columns) : scale(std::max(1, width / 800)), margin(6 * scale), line(Picture::text_height(scale) + 4 * scale)
+    Layout(int width, int height, int columns)
+        : scale(std::max(1, width / 800)), margin(6 * scale), line(Picture::text_height(scale) + 4 * scale)
     {
         left = margin + Picture::text_width("109-132 ", scale);
         top = margin + 2 * line + margin;
         gap = 3 * margin;
         const int below = 2 * line + 2 * margin + static_cast<int>(caption.size()) * line + margin;
-        pitch = std::max(4, std::min((width - left - margin - gap) / (columns + 1), (height - top - below) / rows - line));
+        pitch =
+            std::max(4, std::min((width - left - margin - gap) / (columns + 1), (height - top - below) / rows - line));
         caption_top = top + rows * (pitch + line) + 2 * line + 2 * margin;
     }
     int row_top(int row) const { return top + row * (pitch + line); }
@@ -56,12 +58,15 @@ void draw_shell(Picture& picture, const ShellMaps& shell, int column, const Layo
         const DirectionMap& map = shell.by_theta[static_cast<size_t>(row)];
         const double peak = map.peak();
         if (!(peak > 0)) continue;
-        draw_disc(picture, left, l.row_top(row), l.pitch, [&](double x, double y) { return map.density_at(x, y) * safe_sqrt(1 - x * x - y * y) * pi / peak; });
-        draw_text_centred(picture, middle, l.row_top(row) + l.pitch + l.scale, fmt::format("{:.2f}", peak), figure_faint, l.scale);
+        draw_disc(picture, left, l.row_top(row), l.pitch,
+                  [&](double x, double y) { return map.density_at(x, y) * safe_sqrt(1 - x * x - y * y) * pi / peak; });
+        draw_text_centred(picture, middle, l.row_top(row) + l.pitch + l.scale, fmt::format("{:.2f}", peak),
+                          figure_faint, l.scale);
     }
     const int below = l.row_top(rows) + l.margin;
     draw_text_centred(picture, middle, below, fmt::format("{:.4f}", shell.mean_cosine), figure_ink, l.scale);
-    draw_text_centred(picture, middle, below + l.line, fmt::format("{:.2f} %", 100 * shell.distance.distance()), figure_ink, l.scale);
+    draw_text_centred(picture, middle, below + l.line, fmt::format("{:.2f} %", 100 * shell.distance.distance()),
+                      figure_ink, l.scale);
 }
 
 void draw_rows(Picture& picture, const Layout& l)
@@ -69,7 +74,8 @@ void draw_rows(Picture& picture, const Layout& l)
     const auto degrees = [](int edge) { return 180 / pi * std::acos(std::clamp(1 - 2.0 * edge / rows, -1.0, 1.0)); };
     for (int row = 0; row < rows; ++row) {
         const int y = l.row_top(row) + (l.pitch - Picture::text_height(l.scale)) / 2;
-        picture.draw_text(l.margin, y, fmt::format("{:.0f}-{:.0f}", degrees(row), degrees(row + 1)), figure_faint, l.scale);
+        picture.draw_text(l.margin, y, fmt::format("{:.0f}-{:.0f}", degrees(row), degrees(row + 1)), figure_faint,
+                          l.scale);
     }
     const int below = l.row_top(rows) + l.margin;
     picture.draw_text(l.margin, below, "cos", figure_faint, l.scale);
@@ -84,9 +90,12 @@ void draw_reference(Picture& picture, int columns, const Layout& l)
     draw_disc(picture, left, l.row_top(0), l.pitch, [](double x, double y) { return safe_sqrt(1 - x * x - y * y); });
     draw_text_centred(picture, middle, l.row_top(0) + l.pitch + l.scale, "1.00", figure_faint, l.scale);
 
-    const int top = l.row_top(1) + l.line + l.margin, bottom = l.row_top(rows) - 2 * l.line, width = std::max(2, l.pitch / 5);
+    const int top = l.row_top(1) + l.line + l.margin, bottom = l.row_top(rows) - 2 * l.line,
+              width = std::max(2, l.pitch / 5);
     draw_text_centred(picture, middle, top - l.line, "peak", figure_faint, l.scale);
-    for (int y = top; y < bottom; ++y) picture.fill_rectangle(middle - width / 2, y, width, 1, heat_color(static_cast<double>(bottom - 1 - y) / std::max(1, bottom - 1 - top)));
+    for (int y = top; y < bottom; ++y)
+        picture.fill_rectangle(middle - width / 2, y, width, 1,
+                               heat_color(static_cast<double>(bottom - 1 - y) / std::max(1, bottom - 1 - top)));
     draw_text_centred(picture, middle, bottom + 2 * l.scale, "0", figure_faint, l.scale);
 
     const int below = l.row_top(rows) + l.margin;
@@ -103,9 +112,11 @@ Picture draw_stf_figure(std::span<const ShellMaps> shells, int width, int height
     Picture picture(width, height, figure_paper);
     picture.draw_text(l.margin, l.margin, title, figure_ink, l.scale);
     draw_rows(picture, l);
-    for (int column = 0; column < columns; ++column) draw_shell(picture, shells[static_cast<size_t>(column)], column, l);
+    for (int column = 0; column < columns; ++column)
+        draw_shell(picture, shells[static_cast<size_t>(column)], column, l);
     draw_reference(picture, columns, l);
-    for (size_t i = 0; i < caption.size(); ++i) picture.draw_text(l.margin, l.caption_top + static_cast<int>(i) * l.line, caption[i], figure_faint, l.scale);
+    for (size_t i = 0; i < caption.size(); ++i)
+        picture.draw_text(l.margin, l.caption_top + static_cast<int>(i) * l.line, caption[i], figure_faint, l.scale);
     return picture;
 }
 

@@ -41,7 +41,10 @@ uint64_t checksum_of(const ShellHead& head, const StfShell& shell, uint64_t hash
     return hash;
 }
 
-ShellHead head_of(const StfShell& shell) { return {shell.radius, shell.event_sum, shell.exits.size(), shell.events.size()}; }
+ShellHead head_of(const StfShell& shell)
+{
+    return {shell.radius, shell.event_sum, shell.exits.size(), shell.events.size()};
+}
 
 } // namespace
 
@@ -74,7 +77,9 @@ void read_stf(const std::filesystem::path& file, uint64_t key, Stf& stf)
     for (uint32_t i = 0; i < head.shells; ++i) {
         const auto of_shell = reader.read<ShellHead>();
         constexpr uint64_t most = uint64_t{1} << 20; // as the builder's
-        if (of_shell.exits == 0 || of_shell.events == 0 || of_shell.exits > most || of_shell.events > most || of_shell.radius != Stf::radius(i)) throw reader.refuse("a damaged file: a shell that cannot be");
+        if (of_shell.exits == 0 || of_shell.events == 0 || of_shell.exits > most || of_shell.events > most ||
+            of_shell.radius != Stf::radius(i))
+            throw reader.refuse("a damaged file: a shell that cannot be");
         StfShell shell;
         shell.radius = of_shell.radius;
         shell.event_sum = of_shell.event_sum;

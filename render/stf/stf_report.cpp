@@ -19,27 +19,30 @@ nlohmann::json distance_json(const CosineDistance& distance)
 nlohmann::json shell_json(const StfReport& report, size_t i)
 {
     const ShellNumbers& shell = report.shells[i];
-    return {{"radius", shell.radius},
-            {"made", report.seconds[i] > 0},
-            {"seconds", report.seconds[i]},
-            {"walks", report.walks},
-            {"records", shell.records},
-            {"unscattered", shell.unscattered},
-            {"single", shell.single},
-            {"multiple", shell.multiple},
-            {"at_albedo", {{"single", shell.single_left}, {"multiple", shell.multiple_left}, {"absorbed", shell.absorbed}}},
-            {"mean_scatterings", shell.scatterings},
-            {"mean_cosine_theta_t", shell.cos_t},
-            {"mean_cosine_in_out", shell.straight},
-            {"mean_outward_cosine", shell.mean_cosine},
-            {"mean_outward_cosine_difference", shell.mean_cosine - cosine_hemisphere},
-            {"from_cosine_hemisphere", distance_json(shell.distance)}};
+    return {
+        {"radius", shell.radius},
+        {"made", report.seconds[i] > 0},
+        {"seconds", report.seconds[i]},
+        {"walks", report.walks},
+        {"records", shell.records},
+        {"unscattered", shell.unscattered},
+        {"single", shell.single},
+        {"multiple", shell.multiple},
+        {"at_albedo", {{"single", shell.single_left}, {"multiple", shell.multiple_left}, {"absorbed", shell.absorbed}}},
+        {"mean_scatterings", shell.scatterings},
+        {"mean_cosine_theta_t", shell.cos_t},
+        {"mean_cosine_in_out", shell.straight},
+        {"mean_outward_cosine", shell.mean_cosine},
+        {"mean_outward_cosine_difference", shell.mean_cosine - cosine_hemisphere},
+        {"from_cosine_hemisphere", distance_json(shell.distance)}};
 }
 
 nlohmann::json map_json(const ShellMaps& shell, uint32_t row)
 {
     const DirectionMap& map = shell.by_theta[row];
-    const auto degrees = [](double edge) { return 180 / pi * std::acos(std::clamp(1 - 2 * edge / ShellMaps::rows, -1.0, 1.0)); };
+    const auto degrees = [](double edge) {
+        return 180 / pi * std::acos(std::clamp(1 - 2 * edge / ShellMaps::rows, -1.0, 1.0));
+    };
     nlohmann::json density = nlohmann::json::array();
     for (uint32_t cell = 0; cell < DirectionMap::cells; ++cell) density.push_back(map.density(cell));
     return {{"theta_t_degrees", {degrees(row), degrees(row + 1)}},
@@ -70,12 +73,14 @@ nlohmann::json figure_json(const StfReport::Figure& figure)
 
 nlohmann::json report_json(const StfReport& report)
 {
-    nlohmann::json phase{{"kind", report.stf->phase_table ? "table" : "henyey_greenstein"}, {"mean_cosine", report.stf->phase.mean_cosine()}};
+    nlohmann::json phase{{"kind", report.stf->phase_table ? "table" : "henyey_greenstein"},
+                         {"mean_cosine", report.stf->phase.mean_cosine()}};
     if (report.stf->phase_table) phase["density_of_cosine"] = report.stf->phase_table->table().density;
     if (report.grain) phase["gsdf_error"] = report.gsdf_error;
     nlohmann::json shells = nlohmann::json::array();
     for (size_t i = 0; i < report.shells.size(); ++i) shells.push_back(shell_json(report, i));
-    nlohmann::json json{{"name", report.name}, {"phase_function", phase}, {"albedo", report.albedo}, {"shells", shells}};
+    nlohmann::json json{
+        {"name", report.name}, {"phase_function", phase}, {"albedo", report.albedo}, {"shells", shells}};
     if (!report.remark.empty()) json["remark"] = report.remark;
     if (report.figure) json["figure"] = figure_json(*report.figure);
     return json;
@@ -116,17 +121,21 @@ ShellNumbers shell_numbers(const StfShell& shell, double albedo)
 
 std::string stf_table_head(double albedo)
 {
-    return fmt::format("{:<17}  {:>7}  {:>11}  {:>8}  {:>8}  {:>13}  {:>8}  {:>8}  {:>11}  {:>9}  {:>7}  {:>7}  {:>7}  {:>6}  {:>7}  {:>7}  {:>7}", "grain", "radius",
-                       "unscattered", "single", "multiple", fmt::format("{:g}: single", albedo), "multiple", "absorbed", "scatterings", "theta_t", "in.out", "outward",
-                       "- 2/3", "L1 %", "noise %", "walks", "seconds");
+    return fmt::format("{:<17}  {:>7}  {:>11}  {:>8}  {:>8}  {:>13}  {:>8}  {:>8}  {:>11}  {:>9}  {:>7}  {:>7}  {:>7}  "
+                       "{:>6}  {:>7}  {:>7}  {:>7}",
+                       "grain", "radius", "unscattered", "single", "multiple", fmt::format("{:g}: single", albedo),
+                       "multiple", "absorbed", "scatterings", "theta_t", "in.out", "outward", "- 2/3", "L1 %",
+                       "noise %", "walks", "seconds");
 }
 
 std::string stf_table_line(const StfReport& report, size_t i)
 {
     const ShellNumbers& s = report.shells[i];
-    return fmt::format("{:<17}  {:>7.6g}  {:>11.4g}  {:>8.5f}  {:>8.5f}  {:>13.5f}  {:>8.5f}  {:>8.5f}  {:>11.5g}  {:>9.5f}  {:>7.4f}  {:>7.4f}  {:>7.4f}  {:>6.2f}  {:>7.2f}  {:>7}  {:>7.2f}",
-                       report.name, s.radius, s.unscattered, s.single, s.multiple, s.single_left, s.multiple_left, s.absorbed, s.scatterings, s.cos_t, s.straight,
-                       s.mean_cosine, s.mean_cosine - cosine_hemisphere, 100 * s.distance.distance(), 100 * s.distance.noise(), report.walks, report.seconds[i]);
+    return fmt::format("{:<17}  {:>7.6g}  {:>11.4g}  {:>8.5f}  {:>8.5f}  {:>13.5f}  {:>8.5f}  {:>8.5f}  {:>11.5g}  "
+                       "{:>9.5f}  {:>7.4f}  {:>7.4f}  {:>7.4f}  {:>6.2f}  {:>7.2f}  {:>7}  {:>7.2f}",
+                       report.name, s.radius, s.unscattered, s.single, s.multiple, s.single_left, s.multiple_left,
+                       s.absorbed, s.scatterings, s.cos_t, s.straight, s.mean_cosine, s.mean_cosine - cosine_hemisphere,
+                       100 * s.distance.distance(), 100 * s.distance.noise(), report.walks, report.seconds[i]);
 }
 
 std::string stf_json(const std::vector<StfReport>& reports)

@@ -1,8 +1,8 @@
 #include "render/stress/stress.h"
 
 #include "base/error.h"
-#include "render/stress/stress_run.h"
 #include "render/build/part_report.h"
+#include "render/stress/stress_run.h"
 
 namespace scree {
 

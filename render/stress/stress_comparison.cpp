@@ -41,7 +41,8 @@ Mean mean_over(const PixelMean& of, int x0, int y0, int x1, int y1, int channel)
 }
 
 /// samples: of a pixel, where a truth is known that so few may not have shown, of a radiance up to 1.
-StressFinding compare(const PixelMean& a, const PixelMean& b, int width, int height, int block, double bias, double samples = std::numeric_limits<double>::infinity())
+StressFinding compare(const PixelMean& a, const PixelMean& b, int width, int height, int block, double bias,
+                      double samples = std::numeric_limits<double>::infinity())
 {
     StressFinding finding;
     finding.unit = "sigma";
@@ -50,14 +51,16 @@ StressFinding compare(const PixelMean& a, const PixelMean& b, int width, int hei
     std::string where;
     const auto test = [&](int x0, int y0, int x1, int y1, int channel) {
         const Mean ma = mean_over(a, x0, y0, x1, y1, channel), mb = mean_over(b, x0, y0, x1, y1, channel);
-        const double scale = std::max(std::abs(ma.value), std::abs(mb.value)), error = std::sqrt(ma.variance + mb.variance);
+        const double scale = std::max(std::abs(ma.value), std::abs(mb.value)),
+                     error = std::sqrt(ma.variance + mb.variance);
         const double unseen = 1 / (samples * (x1 - x0) * (y1 - y0));
         const double difference = std::max(0.0, std::abs(ma.value - mb.value) - (bias + rounding) * scale - unseen);
         const double z = difference > 0 ? difference / error : 0;
         ++tests;
         if (!(z <= finding.deviation)) {
             finding.deviation = z;
-            where = fmt::format("{} {:.5g} against {:.5g} at {},{}..{},{}", "RGB"[channel], ma.value, mb.value, x0, y0, x1, y1);
+            where = fmt::format("{} {:.5g} against {:.5g} at {},{}..{},{}", "RGB"[channel], ma.value, mb.value, x0, y0,
+                                x1, y1);
         }
         if (x1 - x0 == width && y1 - y0 == height && scale > 0) {
             whole_error = std::max(whole_error, error / scale);
@@ -104,7 +107,9 @@ StressFinding compare_means(const Film& a, const Film& b, int block, double bias
 
 StressFinding compare_truth(const Film& a, const std::vector<double>& truth, int block, double bias)
 {
-    const auto exact = [&](int x, int y, int) { return Mean{truth[static_cast<size_t>(y) * static_cast<size_t>(a.width()) + static_cast<size_t>(x)], 0}; };
+    const auto exact = [&](int x, int y, int) {
+        return Mean{truth[static_cast<size_t>(y) * static_cast<size_t>(a.width()) + static_cast<size_t>(x)], 0};
+    };
     return compare(means_of(a), exact, a.width(), a.height(), block, bias, a.at(0, 0).samples);
 }
 
@@ -127,12 +132,14 @@ StressFinding compare_bits(const Film& a, const Film& b)
         const Pixel& p = a.pixels()[i];
         const Pixel& q = b.pixels()[i];
         const auto same = [](const auto& u, const auto& v) { return std::memcmp(&u, &v, sizeof u) == 0; };
-        const bool equal = p.samples == q.samples && p.hits == q.hits && p.id == q.id && p.type == q.type && same(p.sum, q.sum) &&
-                           same(p.sum_of_squares, q.sum_of_squares) && same(p.albedo, q.albedo) && same(p.normal, q.normal) && same(p.depth, q.depth);
+        const bool equal = p.samples == q.samples && p.hits == q.hits && p.id == q.id && p.type == q.type &&
+                           same(p.sum, q.sum) && same(p.sum_of_squares, q.sum_of_squares) && same(p.albedo, q.albedo) &&
+                           same(p.normal, q.normal) && same(p.depth, q.depth);
         finding.deviation += !equal;
         largest = std::max(largest, (p.sum - q.sum).length() / std::max(1e-300, q.sum.length()));
     }
-    if (finding.deviation > 0) finding.remark = fmt::format("of {} pixels; radiance off by up to {:.2g} relative", a.pixels().size(), largest);
+    if (finding.deviation > 0)
+        finding.remark = fmt::format("of {} pixels; radiance off by up to {:.2g} relative", a.pixels().size(), largest);
     return finding;
 }
 
@@ -143,7 +150,8 @@ StressFinding compare_exactly(const Film& a, double truth, double allowed)
     finding.allowed = allowed;
     for (const Pixel& pixel : a.pixels()) {
         for (int channel = 0; channel < 3; ++channel) {
-            const double off = pixel.samples > 0 ? std::abs(pixel.sum[channel] / pixel.samples - truth) : std::numeric_limits<double>::infinity();
+            const double off = pixel.samples > 0 ? std::abs(pixel.sum[channel] / pixel.samples - truth)
+                                                 : std::numeric_limits<double>::infinity();
             finding.deviation = std::max(finding.deviation, off);
         }
     }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/stress/stress_report.h"
 #include "render/film/film.h"
+#include "render/stress/stress_report.h"
 
 #include <vector>
 
@@ -13,8 +13,8 @@ double critical_z(double level, int tests);
 /// Chance that a comparison of pictures that are equal in the mean fails.
 inline constexpr double stress_level = 1e-4;
 
-/// Compares two independent pictures in the mean, whole and in squares of `block` pixels, channel by channel: the finding is the worst
-/// difference in standard errors. bias: relative difference that is allowed besides noise.
+/// Compares two independent pictures in the mean, whole and in squares of `block` pixels, channel by channel: the
+/// finding is the worst difference in standard errors. bias: relative difference that is allowed besides noise.
 StressFinding compare_means(const Film& a, const Film& b, int block = 8, double bias = 0);
 
 /// The same against what every pixel should be, grey.

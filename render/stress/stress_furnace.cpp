@@ -36,9 +36,12 @@ struct Kind {
 
 const std::vector<Kind>& kinds()
 {
-    static const std::vector<Kind> all{{"white spheres", lambert_material(Color(1)), ""},        {"glass spheres", glass_material(1.5), ""},
-                                       {"rough glass spheres", glass_material(1.5, 0.5), ""},  {"white cubes", lambert_material(Color(1)), "cube.obj"},
-                                       {"glass cubes", glass_material(1.5), "cube.obj"},       {"rough glass cubes", glass_material(1.5, 0.5), "cube.obj"}};
+    static const std::vector<Kind> all{{"white spheres", lambert_material(Color(1)), ""},
+                                       {"glass spheres", glass_material(1.5), ""},
+                                       {"rough glass spheres", glass_material(1.5, 0.5), ""},
+                                       {"white cubes", lambert_material(Color(1)), "cube.obj"},
+                                       {"glass cubes", glass_material(1.5), "cube.obj"},
+                                       {"rough glass cubes", glass_material(1.5, 0.5), "cube.obj"}};
     return all;
 }
 
@@ -69,26 +72,33 @@ StressFinding furnace(StressScene scene, const StressView& view, const Progress&
 
 void add_furnace_cases(StressRun& run)
 {
-    run.begin("white furnace", "every pixel of 2,400 lossless grains in a surrounding of 1 with 1", "1e-5: the rounding of some 100 products of floats");
+    run.begin("white furnace", "every pixel of 2,400 lossless grains in a surrounding of 1 with 1",
+              "1e-5: the rounding of some 100 products of floats");
     for (const IntegratorKind integrator : all_kinds) {
         for (const Kind& kind : kinds()) {
             const bool quick = kind.mesh.empty() && integrator == IntegratorKind::ept;
-            run.add(fmt::format("{}, {}", kind.name, name_of(integrator)), quick ? StressExtent::quick : StressExtent::full, [&] {
-                return furnace(bed_of(kind, run.progress()), {.kind = integrator, .accuracy = Accuracy::draft, .spp = 8}, run.progress());
-            });
+            run.add(fmt::format("{}, {}", kind.name, name_of(integrator)),
+                    quick ? StressExtent::quick : StressExtent::full, [&] {
+                        return furnace(bed_of(kind, run.progress()),
+                                       {.kind = integrator, .accuracy = Accuracy::draft, .spp = 8}, run.progress());
+                    });
         }
     }
 
-    run.begin("white furnace, indices", "the same for indices of refraction and roughnesses at their ends", "1e-5: the rounding of some 100 products of floats");
+    run.begin("white furnace, indices", "the same for indices of refraction and roughnesses at their ends",
+              "1e-5: the rounding of some 100 products of floats");
     for (const double ior : {0.1, 1.0001, 4.0, 10.0}) {
         for (const double roughness : {0.0, 0.05, 1.0}) {
-            run.add(fmt::format("index {}, roughness {}, ept", ior, roughness), ior == 4 ? StressExtent::quick : StressExtent::full, [&] {
-                return furnace(bed_of({"", glass_material(ior, roughness), ""}, run.progress()), {.spp = 8}, run.progress());
-            });
+            run.add(fmt::format("index {}, roughness {}, ept", ior, roughness),
+                    ior == 4 ? StressExtent::quick : StressExtent::full, [&] {
+                        return furnace(bed_of({"", glass_material(ior, roughness), ""}, run.progress()), {.spp = 8},
+                                       run.progress());
+                    });
         }
         for (const char* mesh : {"", "cube.obj"}) {
             run.add(fmt::format("index {}, {}, ppt", ior, *mesh ? "cubes" : "spheres"), StressExtent::full, [&] {
-                return furnace(bed_of({"", glass_material(ior), mesh}, run.progress()), {.kind = IntegratorKind::ppt, .accuracy = Accuracy::draft, .spp = 8}, run.progress());
+                return furnace(bed_of({"", glass_material(ior), mesh}, run.progress()),
+                               {.kind = IntegratorKind::ppt, .accuracy = Accuracy::draft, .spp = 8}, run.progress());
             });
         }
     }
@@ -97,9 +107,12 @@ void add_furnace_cases(StressRun& run)
     for (const IntegratorKind integrator : all_kinds) {
         for (const Kind& kind : kinds()) {
             const bool quick = integrator == IntegratorKind::ept && kind.name == "rough glass spheres";
-            run.add(fmt::format("{}, {}", kind.name, name_of(integrator)), quick ? StressExtent::quick : StressExtent::full, [&] {
-                return sampled_furnace(bed_of(kind, run.progress()), {.kind = integrator, .accuracy = Accuracy::draft, .spp = 256}, run.progress());
-            });
+            run.add(fmt::format("{}, {}", kind.name, name_of(integrator)),
+                    quick ? StressExtent::quick : StressExtent::full, [&] {
+                        return sampled_furnace(bed_of(kind, run.progress()),
+                                               {.kind = integrator, .accuracy = Accuracy::draft, .spp = 256},
+                                               run.progress());
+                    });
         }
     }
 }

@@ -1,4 +1,5 @@
-// Packings without a grain, with one, and as full as they get; and paths of a million vertices through grains, media and a white room.
+// Packings without a grain, with one, and as full as they get; and paths of a million vertices through grains, media
+// and a white room.
 
 #include "render/stress/stress_furnace.h"
 #include "render/stress/stress_scenes.h"
@@ -30,7 +31,9 @@ StressScene fcc(const Material& material, int cells)
 StressScene odd_grains(const Material& material)
 {
     StressScene scene = few_grains(material, 0);
-    const auto add = [&](const V3d& center, double radius) { scene.grains.push_back({center, radius, 0, {1, 0, 0, 0}}); };
+    const auto add = [&](const V3d& center, double radius) {
+        scene.grains.push_back({center, radius, 0, {1, 0, 0, 0}});
+    };
     for (int i = 0; i < 3; ++i) add(V3d(0), 1);
     add(V3d(0.25, 0, 0), 0.25);
     add(V3d(0, 0.5, 0), 0.5);
@@ -63,7 +66,8 @@ double cube_chord(const StressGrain& grain, const V3d& o, const V3d& d)
     return std::max(0.0, leave - enter);
 }
 
-/// 108 grains on a close lattice that absorb and do not refract, seen askew before a surrounding of 1: the light that straight lines leave.
+/// 108 grains on a close lattice that absorb and do not refract, seen askew before a surrounding of 1: the light that
+/// straight lines leave.
 StressFinding straight_through(const Material& material, bool cubes, const StressView& view, const Progress& progress)
 {
     StressScene scene = empty_scene(16, 16, V3d(-7.3, -9.1, 12.7), V3d(0.1, 0.2, -0.3), 35);
@@ -73,7 +77,8 @@ StressFinding straight_through(const Material& material, bool cubes, const Stres
     if (cubes) scene.meshes["cube.obj"] = cube_mesh(1);
     for (const V3d& place : fcc_spheres(3)) {
         const auto number = static_cast<double>(scene.grains.size());
-        const Imath::Quatd turn(1 + std::sin(number), V3d(std::sin(2 * number), std::cos(3 * number), std::sin(5 * number)));
+        const Imath::Quatd turn(1 + std::sin(number),
+                                V3d(std::sin(2 * number), std::cos(3 * number), std::sin(5 * number)));
         scene.grains.push_back({place, 1, 0, turn.normalized()});
     }
     add_constant(scene, Color(1));
@@ -98,8 +103,9 @@ StressScene from_within(StressScene scene, int width, int height)
     return scene;
 }
 
-/// A white ball from within, with a hole of 1 / mean of its surface. Matte reflection in a ball goes to all of it alike, so that every
-/// segment but the first leaves with that chance: paths have 1 + mean of them, with a standard deviation of about the mean.
+/// A white ball from within, with a hole of 1 / mean of its surface. Matte reflection in a ball goes to all of it
+/// alike, so that every segment but the first leaves with that chance: paths have 1 + mean of them, with a standard
+/// deviation of about the mean.
 StressFinding room(double mean, int pixels, uint32_t spp, const Progress& progress)
 {
     TriangleMesh ball = ball_mesh(1, 2);
@@ -136,40 +142,55 @@ StressFinding room(double mean, int pixels, uint32_t spp, const Progress& progre
 
 void add_packing_cases(StressRun& run)
 {
-    run.begin("packings", "lossless spheres in a surrounding of 1 with 1", "1e-5: the rounding of some 100 products of floats");
+    run.begin("packings", "lossless spheres in a surrounding of 1 with 1",
+              "1e-5: the rounding of some 100 products of floats");
     for (const IntegratorKind kind : all_kinds) {
         const StressView view{.kind = kind, .accuracy = Accuracy::draft, .spp = 32};
         const StressExtent extent = kind == IntegratorKind::ept ? StressExtent::quick : StressExtent::full;
-        run.add("no grain, " + name_of(kind), StressExtent::quick, [&] { return furnace(few_grains(glass_material(1.5), 0), view, run.progress()); });
-        run.add("one grain, " + name_of(kind), extent, [&] { return furnace(few_grains(glass_material(1.5), 1), view, run.progress()); });
-        run.add("2,916 touching spheres of glass, f 0.74, " + name_of(kind), extent, [&] { return furnace(fcc(glass_material(1.5), 9), view, run.progress()); });
-        run.add("grains in each other, glass, " + name_of(kind), extent, [&] { return furnace(odd_grains(glass_material(1.5)), view, run.progress()); });
-        run.add("grains in each other, white, " + name_of(kind), extent, [&] { return furnace(odd_grains(lambert_material(Color(1))), view, run.progress()); });
-        run.add("2,916 touching white spheres, f 0.74, " + name_of(kind), extent, [&] { return furnace(fcc(lambert_material(Color(1)), 9), view, run.progress()); });
+        run.add("no grain, " + name_of(kind), StressExtent::quick,
+                [&] { return furnace(few_grains(glass_material(1.5), 0), view, run.progress()); });
+        run.add("one grain, " + name_of(kind), extent,
+                [&] { return furnace(few_grains(glass_material(1.5), 1), view, run.progress()); });
+        run.add("2,916 touching spheres of glass, f 0.74, " + name_of(kind), extent,
+                [&] { return furnace(fcc(glass_material(1.5), 9), view, run.progress()); });
+        run.add("grains in each other, glass, " + name_of(kind), extent,
+                [&] { return furnace(odd_grains(glass_material(1.5)), view, run.progress()); });
+        run.add("grains in each other, white, " + name_of(kind), extent,
+                [&] { return furnace(odd_grains(lambert_material(Color(1))), view, run.progress()); });
+        run.add("2,916 touching white spheres, f 0.74, " + name_of(kind), extent,
+                [&] { return furnace(fcc(lambert_material(Color(1)), 9), view, run.progress()); });
     }
 
-    run.begin("packings, straight", "the light that 108 touching spheres, or cubes within them, leave along straight lines with sums of chords, pixel by pixel", "noise; 0.2 % for the sum that stands for the integral over a pixel");
+    run.begin("packings, straight",
+              "the light that 108 touching spheres, or cubes within them, leave along straight lines with sums of "
+              "chords, pixel by pixel",
+              "noise; 0.2 % for the sum that stands for the integral over a pixel");
     for (const IntegratorKind kind : {IntegratorKind::ept, IntegratorKind::automatic}) {
         const StressView view{.kind = kind, .accuracy = Accuracy::standard, .spp = 1024};
         for (const bool cubes : {false, true}) {
             const StressExtent extent = kind == IntegratorKind::ept ? StressExtent::quick : StressExtent::full;
             const std::string what = cubes ? "cubes, " : "spheres, ";
-            run.add("black " + what + name_of(kind), extent, [&] { return straight_through(lambert_material(Color(0)), cubes, view, run.progress()); });
-            run.add("absorbing " + what + name_of(kind), extent, [&] { return straight_through(glass_material(1, 0, Color(0.25f)), cubes, view, run.progress()); });
+            run.add("black " + what + name_of(kind), extent,
+                    [&] { return straight_through(lambert_material(Color(0)), cubes, view, run.progress()); });
+            run.add("absorbing " + what + name_of(kind), extent,
+                    [&] { return straight_through(glass_material(1, 0, Color(0.25f)), cubes, view, run.progress()); });
         }
     }
 }
 
 void add_long_path_cases(StressRun& run)
 {
-    run.begin("long paths", "lossless things seen from deep within, in a surrounding of 1, with 1", "1e-5: a weight that no event changes is not rounded");
+    run.begin("long paths", "lossless things seen from deep within, in a surrounding of 1, with 1",
+              "1e-5: a weight that no event changes is not rounded");
     for (const IntegratorKind kind : {IntegratorKind::vpt, IntegratorKind::stf}) {
         run.add("the middle of a cube of optical radius 1000, " + name_of(kind), StressExtent::full, [&] {
             StressScene scene = from_within(empty_scene(1, 1, V3d(0), V3d(1, 0, 0), 35), 4, 4);
             scene.meshes["cube.obj"] = cube_mesh(1);
             add_medium(scene, "cube.obj", 1000, Color(1), 0);
-            StressFinding finding = furnace(scene, {.kind = kind, .accuracy = Accuracy::draft, .spp = 2}, run.progress());
-            finding.least_length = kind == IntegratorKind::vpt ? 3e5 : 0; // 0.6745 r^2 of scatterings; shells pass many in one step
+            StressFinding finding =
+                furnace(scene, {.kind = kind, .accuracy = Accuracy::draft, .spp = 2}, run.progress());
+            finding.least_length =
+                kind == IntegratorKind::vpt ? 3e5 : 0; // 0.6745 r^2 of scatterings; shells pass many in one step
             return finding;
         });
     }
@@ -180,24 +201,30 @@ void add_long_path_cases(StressRun& run)
         double radius;
     };
     // Light passes several spheres of glass before it is turned, so that there must be more of them for as long a way.
-    for (const auto& [grains, number, material, radius] : {Deep{"spheres of glass", "10^11", glass_material(1.5), 0.0002}, Deep{"spheres of rough glass", "10^10", glass_material(1.5, 0.5), 0.0005},
-                                                           Deep{"white spheres", "10^9", lambert_material(Color(1)), 0.001}}) {
+    for (const auto& [grains, number, material, radius] :
+         {Deep{"spheres of glass", "10^11", glass_material(1.5), 0.0002},
+          Deep{"spheres of rough glass", "10^10", glass_material(1.5, 0.5), 0.0005},
+          Deep{"white spheres", "10^9", lambert_material(Color(1)), 0.001}}) {
         for (const IntegratorKind kind : {IntegratorKind::ept, IntegratorKind::ppt}) {
             run.add(fmt::format("the middle of {} {}, {}", number, grains, name_of(kind)), StressExtent::full, [&] {
                 const StressScene scene = from_within(filled_scene(material, radius, run.progress()), 4, 2);
-                StressFinding finding = furnace(scene, {.kind = kind, .accuracy = Accuracy::draft, .spp = 1}, run.progress());
+                StressFinding finding =
+                    furnace(scene, {.kind = kind, .accuracy = Accuracy::draft, .spp = 1}, run.progress());
                 finding.least_length = kind == IntegratorKind::ept ? 2e5 : 1e5; // of a grain a proxy makes one vertex
                 return finding;
             });
         }
     }
-    run.begin("long paths, lengths", "the mean length of paths in a white ball with a hole with 1 + surface / hole; and the furnace", "noise");
-    for (const auto& [mean, pixels, spp, must_see] : {std::tuple(1e3, 16, 32u, 0.07), std::tuple(1e4, 8, 32u, 0.15), std::tuple(1e6, 4, 1u, 1.5)}) {
-        run.add(fmt::format("a hole of {:g} of the surface, ept", 1 / mean), mean < 1e4 ? StressExtent::quick : StressExtent::full, [&] {
-            StressFinding finding = room(mean, pixels, spp, run.progress());
-            finding.must_see = must_see;
-            return finding;
-        });
+    run.begin("long paths, lengths",
+              "the mean length of paths in a white ball with a hole with 1 + surface / hole; and the furnace", "noise");
+    for (const auto& [mean, pixels, spp, must_see] :
+         {std::tuple(1e3, 16, 32u, 0.07), std::tuple(1e4, 8, 32u, 0.15), std::tuple(1e6, 4, 1u, 1.5)}) {
+        run.add(fmt::format("a hole of {:g} of the surface, ept", 1 / mean),
+                mean < 1e4 ? StressExtent::quick : StressExtent::full, [&] {
+                    StressFinding finding = room(mean, pixels, spp, run.progress());
+                    finding.must_see = must_see;
+                    return finding;
+                });
     }
 }
 

@@ -10,7 +10,10 @@ namespace scree {
 namespace {
 
 /// Samples of pictures that are compared in the mean: fewer where a medium stands for grains, which takes longer.
-uint32_t mean_spp(IntegratorKind kind) { return kind == IntegratorKind::ept || kind == IntegratorKind::ppt ? 1024 : 384; }
+uint32_t mean_spp(IntegratorKind kind)
+{
+    return kind == IntegratorKind::ept || kind == IntegratorKind::ppt ? 1024 : 384;
+}
 
 /// What a scene is called, and how it is made.
 struct NamedScene {
@@ -28,7 +31,9 @@ StressScene lit(StressScene scene)
 NamedScene scene_for(IntegratorKind kind, const Progress& progress)
 {
     if (kind == IntegratorKind::ept || kind == IntegratorKind::ppt) return {"48 mixed grains", mixed_scene(progress)};
-    return {"2,400 grains", lit(bed_scene({glass_material(1.5, 0, Color(0x1p-8f, 0x1p-7f, 0x1p-5f)), lambert_material(Color(0.96875f, 0.875f, 0.5f))}, progress))};
+    return {"2,400 grains", lit(bed_scene({glass_material(1.5, 0, Color(0x1p-8f, 0x1p-7f, 0x1p-5f)),
+                                           lambert_material(Color(0.96875f, 0.875f, 0.5f))},
+                                          progress))};
 }
 
 NamedScene ball() { return {"a ball of medium", ball_of_medium(16, Weight(0.99, 0.9, 0.5), 0.75)}; }
@@ -38,7 +43,8 @@ NamedScene filled_cube(const Progress& progress)
     return {"a filled cube", lit(filled_scene(lambert_material(Color(0.875f, 0.75f, 0.5f)), 0.125, progress))};
 }
 
-StressFinding same_bits(const StressScene& scene, const std::vector<Placing>& placings, const StressView& view, const Progress& progress)
+StressFinding same_bits(const StressScene& scene, const std::vector<Placing>& placings, const StressView& view,
+                        const Progress& progress)
 {
     const StressPicture reference = StressStage(scene, {}, view, progress).render(view, progress);
     StressFinding worst;
@@ -56,8 +62,10 @@ StressFinding same_bits(const StressScene& scene, const std::vector<Placing>& pl
     return worst;
 }
 
-/// The placed scene against the scene as it is, with other random numbers; and the scene against itself, to show what the test makes of no difference.
-StressFinding same_in_the_mean(const StressScene& scene, const Placing& placing, StressView view, double bias, const Progress& progress)
+/// The placed scene against the scene as it is, with other random numbers; and the scene against itself, to show what
+/// the test makes of no difference.
+StressFinding same_in_the_mean(const StressScene& scene, const Placing& placing, StressView view, double bias,
+                               const Progress& progress)
 {
     const StressStage stage(scene, {}, view, progress);
     const StressPicture first = stage.render(view, progress);
@@ -94,49 +102,63 @@ Placing turned()
     return placing;
 }
 
-StressExtent extent_of(IntegratorKind kind) { return kind == IntegratorKind::ept ? StressExtent::quick : StressExtent::full; }
+StressExtent extent_of(IntegratorKind kind)
+{
+    return kind == IntegratorKind::ept ? StressExtent::quick : StressExtent::full;
+}
 
 } // namespace
 
 void add_scale_cases(StressRun& run)
 {
-    run.begin("scale", "the scene times 2^-40 and 2^40 with the scene, bit by bit", "nothing: render coordinates are the same numbers");
+    run.begin("scale", "the scene times 2^-40 and 2^40 with the scene, bit by bit",
+              "nothing: render coordinates are the same numbers");
     const std::vector<Placing> placings{scaled(-40), scaled(40)};
     const auto add = [&](const NamedScene& named, IntegratorKind kind, StressExtent extent) {
         run.add(fmt::format("{}, {}", named.name, name_of(kind)), extent, [&] {
-            return same_bits(named.scene, placings, {.kind = kind, .accuracy = Accuracy::draft, .spp = 8}, run.progress());
+            return same_bits(named.scene, placings, {.kind = kind, .accuracy = Accuracy::draft, .spp = 8},
+                             run.progress());
         });
     };
     for (const IntegratorKind kind : all_kinds) add(scene_for(kind, run.progress()), kind, extent_of(kind));
-    for (const IntegratorKind kind : {IntegratorKind::vpt, IntegratorKind::stf}) add(ball(), kind, kind == IntegratorKind::vpt ? StressExtent::quick : StressExtent::full);
+    for (const IntegratorKind kind : {IntegratorKind::vpt, IntegratorKind::stf})
+        add(ball(), kind, kind == IntegratorKind::vpt ? StressExtent::quick : StressExtent::full);
     add(filled_cube(run.progress()), IntegratorKind::ept, StressExtent::full);
 }
 
 void add_place_cases(StressRun& run)
 {
-    run.begin("place, exact", "the scene moved by about 1e7, coordinates still exact, bit by bit", "nothing: double holds them, and the scene is centred before it becomes float");
+    run.begin("place, exact", "the scene moved by about 1e7, coordinates still exact, bit by bit",
+              "nothing: double holds them, and the scene is centred before it becomes float");
     const V3d exact(1e7, -1e7, 2e7), inexact(1e7 + 1 / 3.0, -1e7 - 0.1, 2e7 + 0.7);
     const auto add = [&](const NamedScene& named, IntegratorKind kind) {
         run.add(fmt::format("{}, {}", named.name, name_of(kind)), extent_of(kind), [&] {
-            return same_bits(named.scene, {moved(exact)}, {.kind = kind, .accuracy = Accuracy::draft, .spp = 8}, run.progress());
+            return same_bits(named.scene, {moved(exact)}, {.kind = kind, .accuracy = Accuracy::draft, .spp = 8},
+                             run.progress());
         });
     };
     for (const IntegratorKind kind : all_kinds) add(scene_for(kind, run.progress()), kind);
     for (const IntegratorKind kind : {IntegratorKind::vpt, IntegratorKind::stf}) add(ball(), kind);
     for (const IntegratorKind kind : {IntegratorKind::ept, IntegratorKind::ppt}) add(filled_cube(run.progress()), kind);
-    run.begin("place", "the scene moved by 1e7 of its units against the scene, in the mean", "noise: coordinates near 1e7 keep 2^-29 of a unit in a dump and a scene");
+    run.begin("place", "the scene moved by 1e7 of its units against the scene, in the mean",
+              "noise: coordinates near 1e7 keep 2^-29 of a unit in a dump and a scene");
     for (const IntegratorKind kind : all_kinds) {
         const NamedScene named = scene_for(kind, run.progress());
         run.add(fmt::format("{}, {}", named.name, name_of(kind)), extent_of(kind), [&] {
-            return same_in_the_mean(named.scene, moved(inexact), {.kind = kind, .accuracy = Accuracy::draft, .spp = mean_spp(kind)}, 0, run.progress());
+            return same_in_the_mean(named.scene, moved(inexact),
+                                    {.kind = kind, .accuracy = Accuracy::draft, .spp = mean_spp(kind)}, 0,
+                                    run.progress());
         });
     }
     run.add("a ball of medium, vpt", StressExtent::full, [&] {
-        return same_in_the_mean(ball().scene, moved(inexact), {.kind = IntegratorKind::vpt, .spp = mean_spp(IntegratorKind::vpt)}, 0, run.progress());
+        return same_in_the_mean(ball().scene, moved(inexact),
+                                {.kind = IntegratorKind::vpt, .spp = mean_spp(IntegratorKind::vpt)}, 0, run.progress());
     });
     for (const IntegratorKind kind : {IntegratorKind::ept, IntegratorKind::ppt}) {
         run.add("a filled cube, " + name_of(kind), StressExtent::full, [&] {
-            return same_in_the_mean(filled_cube(run.progress()).scene, moved(inexact), {.kind = kind, .accuracy = Accuracy::draft, .spp = mean_spp(kind)}, 0, run.progress());
+            return same_in_the_mean(filled_cube(run.progress()).scene, moved(inexact),
+                                    {.kind = kind, .accuracy = Accuracy::draft, .spp = mean_spp(kind)}, 0,
+                                    run.progress());
         });
     }
 }
@@ -149,12 +171,16 @@ void add_turn_cases(StressRun& run)
         const NamedScene named = scene_for(kind, run.progress());
         const bool has_hull = kind != IntegratorKind::ept && kind != IntegratorKind::ppt;
         run.add(fmt::format("{}, {}", named.name, name_of(kind)), extent_of(kind), [&] {
-            return same_in_the_mean(named.scene, turned(), {.kind = kind, .accuracy = Accuracy::draft, .spp = mean_spp(kind)}, has_hull ? 0.005 : 0, run.progress());
+            return same_in_the_mean(named.scene, turned(),
+                                    {.kind = kind, .accuracy = Accuracy::draft, .spp = mean_spp(kind)},
+                                    has_hull ? 0.005 : 0, run.progress());
         });
     }
     for (const IntegratorKind kind : {IntegratorKind::vpt, IntegratorKind::stf}) {
         run.add("a ball of medium, " + name_of(kind), StressExtent::full, [&] {
-            return same_in_the_mean(ball().scene, turned(), {.kind = kind, .accuracy = Accuracy::draft, .spp = mean_spp(kind)}, 0, run.progress());
+            return same_in_the_mean(ball().scene, turned(),
+                                    {.kind = kind, .accuracy = Accuracy::draft, .spp = mean_spp(kind)}, 0,
+                                    run.progress());
         });
     }
 }

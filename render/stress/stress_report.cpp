@@ -21,7 +21,10 @@ void StressFinding::count(const RenderStatistics& statistics)
     }
 }
 
-double StressFinding::length() const { return static_cast<double>(segments + events + shells) / static_cast<double>(std::max<uint64_t>(1, paths)); }
+double StressFinding::length() const
+{
+    return static_cast<double>(segments + events + shells) / static_cast<double>(std::max<uint64_t>(1, paths));
+}
 
 bool StressFinding::passed() const
 {
@@ -66,19 +69,22 @@ std::string stress_text(const StressReport& report)
 {
     size_t done = 0, failed = 0;
     uint64_t non_finite = 0;
-    std::string text = fmt::format("{:<50} {:>9} {:>9} {:<9} {:>7} {:>7} {:>7}\n", "case", "deviation", "allowed", "unit", "sees", "dropped", "seconds");
+    std::string text = fmt::format("{:<50} {:>9} {:>9} {:<9} {:>7} {:>7} {:>7}\n", "case", "deviation", "allowed",
+                                   "unit", "sees", "dropped", "seconds");
     for (const StressFamily& family : report.families) {
         if (family.cases.empty()) continue;
         text += fmt::format("\n{}: {}\n  allowed: {}\n", family.name, family.compared, family.why);
         for (const StressCase& c : family.cases) {
             const StressFinding& f = c.finding;
             const std::string sees = f.sees > 0 ? fmt::format("{:.2g} %", 100 * f.sees) : "any";
-            text += fmt::format("  {:<48} {:>9.3g} {:>9.3g} {:<9} {:>7} {:>7} {:>7.1f} {}\n", c.name, f.deviation, f.allowed, f.unit, sees, f.non_finite, c.seconds,
-                                c.passed() ? "pass" : "FAIL");
+            text += fmt::format("  {:<48} {:>9.3g} {:>9.3g} {:<9} {:>7} {:>7} {:>7.1f} {}\n", c.name, f.deviation,
+                                f.allowed, f.unit, sees, f.non_finite, c.seconds, c.passed() ? "pass" : "FAIL");
             if (!c.error.empty()) text += "      " + c.error + "\n";
             if (f.sees > f.must_see) text += fmt::format("      too noisy: must see {:.2g} %\n", 100 * f.must_see);
             if (f.leaks > 0) text += fmt::format("      {} rays lost between triangles\n", f.leaks);
-            if (f.length() < f.least_length) text += fmt::format("      paths of {:.3g} vertices in the mean, of {:.3g} expected at least\n", f.length(), f.least_length);
+            if (f.length() < f.least_length)
+                text += fmt::format("      paths of {:.3g} vertices in the mean, of {:.3g} expected at least\n",
+                                    f.length(), f.least_length);
             if (f.stopped > 0) text += fmt::format("      {} paths did not end in time\n", f.stopped);
             if (!f.remark.empty()) text += "      " + f.remark + "\n";
             ++done;
@@ -87,7 +93,8 @@ std::string stress_text(const StressReport& report)
         }
         text += family_text(family);
     }
-    return text + fmt::format("\n{} of {} cases pass, {} samples not finite, {:.0f} s\n", done - failed, done, non_finite, report.seconds);
+    return text + fmt::format("\n{} of {} cases pass, {} samples not finite, {:.0f} s\n", done - failed, done,
+                              non_finite, report.seconds);
 }
 
 nlohmann::json stress_json(const StressReport& report)
@@ -97,11 +104,27 @@ nlohmann::json stress_json(const StressReport& report)
         nlohmann::json cases = nlohmann::json::array();
         for (const StressCase& c : family.cases) {
             const StressFinding& f = c.finding;
-            cases.push_back({{"name", c.name}, {"passed", c.passed()}, {"deviation", f.deviation}, {"allowed", f.allowed}, {"unit", f.unit},
-                             {"least_seen", f.sees}, {"must_see", f.must_see}, {"remark", f.remark}, {"error", c.error}, {"seconds", c.seconds}, {"paths", f.paths},
-                             {"segments", f.segments}, {"events", f.events}, {"shells", f.shells}, {"non_finite", f.non_finite}, {"stopped", f.stopped}, {"leaks", f.leaks}, {"longest_path", f.longest}});
+            cases.push_back({{"name", c.name},
+                             {"passed", c.passed()},
+                             {"deviation", f.deviation},
+                             {"allowed", f.allowed},
+                             {"unit", f.unit},
+                             {"least_seen", f.sees},
+                             {"must_see", f.must_see},
+                             {"remark", f.remark},
+                             {"error", c.error},
+                             {"seconds", c.seconds},
+                             {"paths", f.paths},
+                             {"segments", f.segments},
+                             {"events", f.events},
+                             {"shells", f.shells},
+                             {"non_finite", f.non_finite},
+                             {"stopped", f.stopped},
+                             {"leaks", f.leaks},
+                             {"longest_path", f.longest}});
         }
-        families.push_back({{"name", family.name}, {"compared", family.compared}, {"why_allowed", family.why}, {"cases", cases}});
+        families.push_back(
+            {{"name", family.name}, {"compared", family.compared}, {"why_allowed", family.why}, {"cases", cases}});
     }
     return {{"passed", report.passed()}, {"seconds", report.seconds}, {"families", families}};
 }

@@ -13,13 +13,13 @@ namespace scree {
 struct StressFinding {
     double deviation = 0; ///< the worst
     double allowed = 0;
-    std::string unit;     ///< of both: "sigma", "of 1", "pixels" ...
-    double sees = 0;      ///< least relative deviation of the picture's mean that the case finds nine times in ten; 0: any
+    std::string unit; ///< of both: "sigma", "of 1", "pixels" ...
+    double sees = 0; ///< least relative deviation of the picture's mean that the case finds nine times in ten; 0: any
     double must_see = 0.03; ///< a case that sees only more than this is too noisy to pass
-    std::string remark;   ///< where, and what else is worth knowing
+    std::string remark; ///< where, and what else is worth knowing
     uint64_t paths = 0, segments = 0, events = 0, shells = 0, non_finite = 0;
-    uint64_t leaks = 0;   ///< rays lost between two triangles
-    double may_leak = 0;  ///< of all paths
+    uint64_t leaks = 0; ///< rays lost between two triangles
+    double may_leak = 0; ///< of all paths
     uint64_t stopped = 0; ///< paths given up as time ran out
     double least_length = 0; ///< that paths must have in the mean, for the case to be about long ones
     uint64_t longest = 0; ///< vertices of the longest path: segments, and events in media where they count

@@ -17,7 +17,10 @@ using nlohmann::json;
 
 json numbers(const V3d& v) { return {v.x, v.y, v.z}; }
 template <class T>
-json numbers(const Imath::Color3<T>& c) { return {c.x, c.y, c.z}; }
+json numbers(const Imath::Color3<T>& c)
+{
+    return {c.x, c.y, c.z};
+}
 
 json material_json(const Material& material, double scale)
 {
@@ -25,18 +28,29 @@ json material_json(const Material& material, double scale)
     switch (material.kind) {
     case MaterialKind::lambert: return {{"kind", "lambert"}, {"reflectance", numbers(material.reflectance)}};
     case MaterialKind::dielectric:
-        return {{"kind", "dielectric"}, {"ior", material.ior}, {"roughness", roughness}, {"tint", numbers(material.tint)},
-                {"absorption", numbers(V3d(material.absorption.x, material.absorption.y, material.absorption.z) / scale)}};
+        return {
+            {"kind", "dielectric"},
+            {"ior", material.ior},
+            {"roughness", roughness},
+            {"tint", numbers(material.tint)},
+            {"absorption", numbers(V3d(material.absorption.x, material.absorption.y, material.absorption.z) / scale)}};
     case MaterialKind::conductor:
-        return {{"kind", "conductor"}, {"eta", numbers(material.eta)}, {"k", numbers(material.k)}, {"roughness", roughness}, {"tint", numbers(material.tint)}};
+        return {{"kind", "conductor"},
+                {"eta", numbers(material.eta)},
+                {"k", numbers(material.k)},
+                {"roughness", roughness},
+                {"tint", numbers(material.tint)}};
     }
     return {};
 }
 
 json camera_json(const CameraDescription& camera, const Placing& placing)
 {
-    json out{{"origin", numbers(placing.point(camera.origin))}, {"target", numbers(placing.point(camera.target))}, {"up", numbers(placing.direction(camera.up))},
-             {"aperture", placing.length(camera.aperture)}, {"focus", placing.length(camera.focus)}};
+    json out{{"origin", numbers(placing.point(camera.origin))},
+             {"target", numbers(placing.point(camera.target))},
+             {"up", numbers(placing.direction(camera.up))},
+             {"aperture", placing.length(camera.aperture)},
+             {"focus", placing.length(camera.focus)}};
     if (camera.kind == CameraKind::perspective) {
         out["fov"] = camera.fov;
     } else {
@@ -51,13 +65,23 @@ json light_json(const LightDescription& light, const Placing& placing)
     using Kind = LightDescription::Kind;
     switch (light.kind) {
     case Kind::constant: return {{"kind", "constant"}, {"radiance", numbers(light.radiance)}};
-    case Kind::environment: return {{"kind", "environment"}, {"file", light.file.string()}, {"up", numbers(placing.direction(light.up))}};
-    case Kind::distant: return {{"kind", "distant"}, {"direction", numbers(placing.direction(light.direction))}, {"irradiance", numbers(light.irradiance)}, {"angle", light.angle}};
+    case Kind::environment:
+        return {{"kind", "environment"}, {"file", light.file.string()}, {"up", numbers(placing.direction(light.up))}};
+    case Kind::distant:
+        return {{"kind", "distant"},
+                {"direction", numbers(placing.direction(light.direction))},
+                {"irradiance", numbers(light.irradiance)},
+                {"angle", light.angle}};
     case Kind::rectangle:
-        return {{"kind", "rectangle"}, {"corner", numbers(placing.point(light.corner))}, {"radiance", numbers(light.radiance)},
+        return {{"kind", "rectangle"},
+                {"corner", numbers(placing.point(light.corner))},
+                {"radiance", numbers(light.radiance)},
                 {"edges", {numbers(placing.vector(light.edge1)), numbers(placing.vector(light.edge2))}}};
     case Kind::sphere:
-        return {{"kind", "sphere"}, {"center", numbers(placing.point(light.center))}, {"radius", placing.length(light.radius)}, {"radiance", numbers(light.radiance)}};
+        return {{"kind", "sphere"},
+                {"center", numbers(placing.point(light.center))},
+                {"radius", placing.length(light.radius)},
+                {"radiance", numbers(light.radiance)}};
     }
     return {};
 }
@@ -85,14 +109,19 @@ json grains_json(const StressScene& scene, const Placing& placing)
 json scene_json(const StressScene& scene, const Placing& placing)
 {
     const SceneDescription& d = scene.description;
-    json out{{"camera", camera_json(d.camera, placing)}, {"film", {{"size", {d.film.width, d.film.height}}, {"filter", "box"}}}};
+    json out{{"camera", camera_json(d.camera, placing)},
+             {"film", {{"size", {d.film.width, d.film.height}}, {"filter", "box"}}}};
     for (const LightDescription& light : d.lights) out["lights"].push_back(light_json(light, placing));
     for (const SurfaceDescription& surface : d.surfaces) {
-        out["surfaces"].push_back({{"mesh", surface.mesh.string()}, {"material", material_json(surface.material, placing.scale)}});
+        out["surfaces"].push_back(
+            {{"mesh", surface.mesh.string()}, {"material", material_json(surface.material, placing.scale)}});
     }
     for (const MediumDescription& medium : d.media) {
         const V3d sigma(medium.sigma_t.x, medium.sigma_t.y, medium.sigma_t.z);
-        out["medium"].push_back({{"mesh", medium.mesh.string()}, {"sigma_t", numbers(sigma / placing.scale)}, {"albedo", numbers(medium.albedo)}, {"g", medium.g}});
+        out["medium"].push_back({{"mesh", medium.mesh.string()},
+                                 {"sigma_t", numbers(sigma / placing.scale)},
+                                 {"albedo", numbers(medium.albedo)},
+                                 {"g", medium.g}});
     }
     if (!d.types.empty()) out["grains"] = grains_json(scene, placing);
     return out;
@@ -103,7 +132,8 @@ void write_text(const std::filesystem::path& path, const std::string& text)
     std::ofstream out(path, std::ios::binary);
     out << text;
     out.close();
-    if (!out) throw InputError(path.string(), "a file that cannot be written", "room for the scenes of the stress test");
+    if (!out)
+        throw InputError(path.string(), "a file that cannot be written", "room for the scenes of the stress test");
 }
 
 std::string dump_text(const StressScene& scene, const Placing& placing)
@@ -119,9 +149,11 @@ std::string dump_text(const StressScene& scene, const Placing& placing)
             hi[a] = i == 0 ? c[a] + 2 * r : std::max(hi[a], c[a] + 2 * r);
         }
         const Imath::Quatd q = placing.rotation * grain.orientation;
-        rows += fmt::format("{} {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", i + 1, grain.type + 1, c.x, c.y, c.z, r, q.r, q.v.x, q.v.y, q.v.z);
+        rows += fmt::format("{} {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", i + 1,
+                            grain.type + 1, c.x, c.y, c.z, r, q.r, q.v.x, q.v.y, q.v.z);
     }
-    std::string text = fmt::format("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff ff ff\n", scene.grains.size());
+    std::string text =
+        fmt::format("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff ff ff\n", scene.grains.size());
     for (int a = 0; a < 3; ++a) text += fmt::format("{:.17g} {:.17g}\n", lo[a], hi[a]);
     return text + "ITEM: ATOMS id type x y z radius quatw quati quatj quatk\n" + rows;
 }
@@ -135,11 +167,13 @@ V3d Placing::direction(const V3d& v) const
     return v + 2.0 * (rotation.r * across + rotation.v.cross(across));
 }
 
-std::filesystem::path write_stress_scene(const StressScene& scene, const Placing& placing, const std::filesystem::path& folder)
+std::filesystem::path write_stress_scene(const StressScene& scene, const Placing& placing,
+                                         const std::filesystem::path& folder)
 {
     for (const auto& [name, mesh] : scene.meshes) {
         TriangleMesh placed = mesh;
-        const bool is_shape = std::ranges::any_of(scene.description.types, [&](const GrainTypeDescription& type) { return type.mesh && *type.mesh == name; });
+        const bool is_shape = std::ranges::any_of(
+            scene.description.types, [&](const GrainTypeDescription& type) { return type.mesh && *type.mesh == name; });
         if (!is_shape) {
             for (V3d& p : placed.positions) p = placing.point(p);
         }
@@ -184,7 +218,8 @@ std::vector<V3d> fcc_spheres(int cells)
         for (int y = 0; y < cells; ++y) {
             for (int x = 0; x < cells; ++x) {
                 const V3d corner = V3d(x, y, z) * edge - V3d(0.5 * cells * edge);
-                for (const V3d& face : {V3d(0, 0, 0), V3d(0.5, 0.5, 0), V3d(0.5, 0, 0.5), V3d(0, 0.5, 0.5)}) places.push_back(corner + face * edge);
+                for (const V3d& face : {V3d(0, 0, 0), V3d(0.5, 0.5, 0), V3d(0.5, 0, 0.5), V3d(0, 0.5, 0.5)})
+                    places.push_back(corner + face * edge);
             }
         }
     }

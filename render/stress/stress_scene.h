@@ -26,11 +26,11 @@ struct StressScene {
     SceneDescription description; ///< without assembly
     std::map<std::string, TriangleMesh> meshes;
     std::vector<StressGrain> grains; ///< written as a LAMMPS dump
-    bool has_dump = false;           ///< write the dump though it has no grain
+    bool has_dump = false; ///< write the dump though it has no grain
 
     std::shared_ptr<const PackingTile> tile; ///< with it grains are a fill of `filled`,
     std::string filled;
-    double fill_radius = 0;                  ///< of this mean radius
+    double fill_radius = 0; ///< of this mean radius
 };
 
 /// Where a scene is put: turned, then scaled, then moved.
@@ -45,12 +45,15 @@ struct Placing {
     double length(double x) const { return x * scale; }
 };
 
-/// Writes scene.json, the dump, meshes and tile into `folder`, with all digits; returns the scene's path. Throws InputError.
-std::filesystem::path write_stress_scene(const StressScene& scene, const Placing& placing, const std::filesystem::path& folder);
+/// Writes scene.json, the dump, meshes and tile into `folder`, with all digits; returns the scene's path. Throws
+/// InputError.
+std::filesystem::path write_stress_scene(const StressScene& scene, const Placing& placing,
+                                         const std::filesystem::path& folder);
 
 /// Spheres of radius 1 of a random packing, `copies`^3 copies of a periodic cube of `count`, around the origin.
 ///
-/// fraction: of the volume, up to 0.6. Coordinates are multiples of 2^-20, so that they can be moved by 1e7 without loss.
+/// fraction: of the volume, up to 0.6. Coordinates are multiples of 2^-20, so that they can be moved by 1e7 without
+/// loss.
 std::vector<V3d> packed_spheres(double fraction, uint64_t count, int copies, const Progress& progress);
 /// Touching spheres of radius 1 on a face-centred cubic lattice, f = 0.74: `cells`^3 cubes of four.
 std::vector<V3d> fcc_spheres(int cells);

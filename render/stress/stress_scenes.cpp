@@ -1,7 +1,7 @@
 #include "render/stress/stress_scenes.h"
 
-#include "packing/tiles/tile_generator.h"
 #include "base/sampler.h"
+#include "packing/tiles/tile_generator.h"
 #include "render/scene/camera.h"
 
 #include <map>
@@ -50,7 +50,8 @@ StressScene scene_from_above(int pixels, double width, double height)
     return scene;
 }
 
-std::vector<double> pixel_means(const StressScene& scene, int parts, const std::function<double(const V3d&, const V3d&)>& radiance)
+std::vector<double> pixel_means(const StressScene& scene, int parts,
+                                const std::function<double(const V3d&, const V3d&)>& radiance)
 {
     const int w = scene.description.film.width, h = scene.description.film.height;
     const Camera camera(scene.description.camera, w, h);
@@ -80,7 +81,8 @@ void add_constant(StressScene& scene, const Color& radiance)
 void add_day(StressScene& scene)
 {
     add_constant(scene, Color(0.3f, 0.35f, 0.4f));
-    LightDescription sun = light_of(LightDescription::Kind::distant), window = light_of(LightDescription::Kind::rectangle);
+    LightDescription sun = light_of(LightDescription::Kind::distant),
+                     window = light_of(LightDescription::Kind::rectangle);
     sun.direction = V3d(0.3, 0.4, -1);
     sun.irradiance = Color(1.5f);
     sun.angle = 40;
@@ -117,14 +119,16 @@ StressScene mixed_scene(const Progress& progress)
     add_day(scene);
     scene.meshes["cube.obj"] = cube_mesh(1);
     scene.meshes["ball.obj"] = ball_mesh(1, 1);
-    scene.meshes["floor.obj"] = {{V3d(-16, -16, -5), V3d(16, -16, -5), V3d(16, 16, -5), V3d(-16, 16, -5)}, {{0, 1, 2}, {0, 2, 3}}};
+    scene.meshes["floor.obj"] = {{V3d(-16, -16, -5), V3d(16, -16, -5), V3d(16, 16, -5), V3d(-16, 16, -5)},
+                                 {{0, 1, 2}, {0, 2, 3}}};
     add_type(scene, "clay", lambert_material(Color(0.8f, 0.5f, 0.3f)));
     add_type(scene, "cube", lambert_material(Color(0.7f)), "cube.obj");
     add_type(scene, "gem", glass_material(1.4, 0.5, Color(0.125f, 0.25f, 0.5f)), "ball.obj");
     add_type(scene, "glass", glass_material(1.5, 0, Color(0.25f, 0.5f, 0.125f)));
     scene.description.surfaces.push_back({"floor.obj", lambert_material(Color(0.6f, 0.5f, 0.4f)), ""});
     const std::vector<V3d> places = packed_spheres(0.5, 48, 1, progress);
-    for (size_t i = 0; i < places.size(); ++i) scene.grains.push_back({places[i], 1.03125, i % 4, any_rotation(static_cast<uint32_t>(i))});
+    for (size_t i = 0; i < places.size(); ++i)
+        scene.grains.push_back({places[i], 1.03125, i % 4, any_rotation(static_cast<uint32_t>(i))});
     return scene;
 }
 
@@ -133,7 +137,8 @@ StressScene bed_scene(const std::vector<Material>& materials, const Progress& pr
     StressScene scene = empty_scene(24, 18, V3d(-38, -42, 30), V3d(0, 0, -1), 35);
     for (size_t i = 0; i < materials.size(); ++i) add_type(scene, "grain" + std::to_string(i), materials[i]);
     const std::vector<V3d> places = packed_spheres(0.55, 300, 2, progress);
-    for (size_t i = 0; i < places.size(); ++i) scene.grains.push_back({places[i], 1, i % materials.size(), {1, 0, 0, 0}});
+    for (size_t i = 0; i < places.size(); ++i)
+        scene.grains.push_back({places[i], 1, i % materials.size(), {1, 0, 0, 0}});
     return scene;
 }
 
@@ -170,13 +175,26 @@ TriangleMesh cube_mesh(double half) { return box_mesh(V3d(-half), V3d(half)); }
 TriangleMesh ball_mesh(double radius, int level)
 {
     const double t = (1 + std::sqrt(5.0)) / 2;
-    TriangleMesh mesh{{{-1, t, 0}, {1, t, 0}, {-1, -t, 0}, {1, -t, 0}, {0, -1, t}, {0, 1, t}, {0, -1, -t}, {0, 1, -t}, {t, 0, -1}, {t, 0, 1}, {-t, 0, -1}, {-t, 0, 1}},
-                      {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                       {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}}};
+    TriangleMesh mesh{{{-1, t, 0},
+                       {1, t, 0},
+                       {-1, -t, 0},
+                       {1, -t, 0},
+                       {0, -1, t},
+                       {0, 1, t},
+                       {0, -1, -t},
+                       {0, 1, -t},
+                       {t, 0, -1},
+                       {t, 0, 1},
+                       {-t, 0, -1},
+                       {-t, 0, 1}},
+                      {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                       {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                       {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
     for (int i = 0; i < level; ++i) {
         std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
         const auto middle = [&](uint32_t a, uint32_t b) {
-            const auto [found, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<uint32_t>(mesh.positions.size()));
+            const auto [found, is_new] =
+                middles.try_emplace(std::minmax(a, b), static_cast<uint32_t>(mesh.positions.size()));
             if (is_new) mesh.positions.push_back(0.5 * (mesh.positions[a] + mesh.positions[b]));
             return found->second;
         };

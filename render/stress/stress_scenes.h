@@ -11,8 +11,10 @@ StressScene empty_scene(int width, int height, const V3d& origin, const V3d& tar
 /// The same looking straight down -z from `height` at a square of a width.
 StressScene scene_from_above(int pixels, double width, double height);
 
-/// Means over the pixels of what a scene's camera sees, of parts^2 rays each; radiance: along a ray, in the scene's unit.
-std::vector<double> pixel_means(const StressScene& scene, int parts, const std::function<double(const V3d& o, const V3d& d)>& radiance);
+/// Means over the pixels of what a scene's camera sees, of parts^2 rays each; radiance: along a ray, in the scene's
+/// unit.
+std::vector<double> pixel_means(const StressScene& scene, int parts,
+                                const std::function<double(const V3d& o, const V3d& d)>& radiance);
 
 void add_constant(StressScene& scene, const Color& radiance);
 /// A bright sky, a wide sun and a rectangle of light: what shows a turn, and makes no single bright samples.

@@ -15,7 +15,9 @@ public:
     ScratchFolder()
     {
         std::string name = (std::filesystem::temp_directory_path() / "scree_stress_XXXXXX").string();
-        if (!::mkdtemp(name.data())) throw InputError(name, "a folder that cannot be made", "room for temporary files", "TMPDIR names their folder");
+        if (!::mkdtemp(name.data()))
+            throw InputError(name, "a folder that cannot be made", "room for temporary files",
+                             "TMPDIR names their folder");
         path_ = name;
     }
     ~ScratchFolder()
@@ -31,7 +33,8 @@ private:
     std::filesystem::path path_;
 };
 
-SceneDescription read_back(const StressScene& scene, const Placing& placing, const StressView& view, const std::filesystem::path& folder)
+SceneDescription read_back(const StressScene& scene, const Placing& placing, const StressView& view,
+                           const std::filesystem::path& folder)
 {
     const std::filesystem::path file = write_stress_scene(scene, placing, folder);
     SceneDescription description = read_scene(JsonDocument::load(file), file);
@@ -49,12 +52,14 @@ struct StressStage::Impl {
     RenderSetup setup;
 
     Impl(const StressScene& scene, const Placing& placing, const StressView& view, const Progress& progress)
-        : builder(read_back(scene, placing, view, folder.path())), setup(builder, builder.build(0, progress), RenderJob{})
+        : builder(read_back(scene, placing, view, folder.path())),
+          setup(builder, builder.build(0, progress), RenderJob{})
     {
     }
 };
 
-StressStage::StressStage(const StressScene& scene, const Placing& placing, const StressView& view, const Progress& progress)
+StressStage::StressStage(const StressScene& scene, const Placing& placing, const StressView& view,
+                         const Progress& progress)
     : impl_(std::make_unique<Impl>(scene, placing, view, progress))
 {
 }
@@ -75,7 +80,8 @@ StressPicture StressStage::render(const StressView& view, const Progress& progre
     options.path.direct_light = view.direct_light;
     const int w = scene.film.width, h = scene.film.height;
     StressPicture picture{Film(w, h, 0, 0, w, h), {}};
-    picture.statistics = scree::render(setup.world(), setup.tracer(), setup.camera(), setup.filter(), picture.film, options, progress);
+    picture.statistics =
+        scree::render(setup.world(), setup.tracer(), setup.camera(), setup.filter(), picture.film, options, progress);
     if (progress.cancelled()) throw Cancelled();
     return picture;
 }

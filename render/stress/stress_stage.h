@@ -1,8 +1,8 @@
 #pragma once
 
-#include "render/stress/stress_scene.h"
 #include "render/loop/render_loop.h"
 #include "render/scene/transport_plan.h"
+#include "render/stress/stress_scene.h"
 
 #include <memory>
 #include <optional>

@@ -12,14 +12,15 @@ struct FillTracer::Visit {
     RTCIntersectContext context; // first: Embree hands it back
     const FillTracer* tracer;
     TracerQuery* query;
-    V3d o, d;                    // the ray from its own start, tile units, unit d
+    V3d o, d; // the ray from its own start, tile units, unit d
     FillCell cell;
     uint64_t number = 0;
     uint32_t variant = 0;
-    double begin = 0, until = 0; // the part of the ray that is visited, tile units; Embree's is a little longer at both ends
-    double start = 0;            // of Embree's ray, tile units along the ray
-    double end = 0;              // of Embree's ray, from its start
-    bool starts_here = false;    // the ray starts in this cell, where it may be within a mesh grain's sphere
+    double begin = 0,
+           until = 0; // the part of the ray that is visited, tile units; Embree's is a little longer at both ends
+    double start = 0; // of Embree's ray, tile units along the ray
+    double end = 0; // of Embree's ray, from its start
+    bool starts_here = false; // the ray starts in this cell, where it may be within a mesh grain's sphere
 
     /// Where Embree's ray may end, now that the query has what it has.
     float embree_end() const
@@ -34,8 +35,8 @@ namespace {
 RTCGeometry make_spheres(const EmbreeDevice& device, const std::vector<GrainStore::Sphere>& spheres)
 {
     RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT);
-    auto* buffer = static_cast<GrainStore::Sphere*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
-                                                                            sizeof(GrainStore::Sphere), spheres.size()));
+    auto* buffer = static_cast<GrainStore::Sphere*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, sizeof(GrainStore::Sphere), spheres.size()));
     device.check("building a tile");
     std::copy(spheres.begin(), spheres.end(), buffer);
     return geometry;
@@ -52,7 +53,8 @@ void fill_filter(const RTCFilterFunctionNArguments* args)
     const FillTracer& tracer = *visit.tracer;
     TracerQuery& query = *visit.query;
     args->valid[0] = 0;
-    // A sphere that the ray is yet to enter is proposed by its near face; by the far one alone when the ray starts in it.
+    // A sphere that the ray is yet to enter is proposed by its near face; by the far one alone when the ray starts in
+    // it.
     const bool far_face = hit->Ng_x * visit.d.x + hit->Ng_y * visit.d.y + hit->Ng_z * visit.d.z > 0;
     if (far_face && !visit.starts_here) return;
 
@@ -70,7 +72,8 @@ void fill_filter(const RTCFilterFunctionNArguments* args)
     const GrainSphere sphere = tracer.world_.fill->to_render(placed);
     double t = 0;
     const bool enters = enters_sphere(sphere, query.o, query.d, t);
-    if (enters ? far_face || t >= query.best : !visit.starts_here || (query.o - sphere.centre).length() > sphere.radius) return;
+    if (enters ? far_face || t >= query.best : !visit.starts_here || (query.o - sphere.centre).length() > sphere.radius)
+        return;
     if (!tracer.fill_.is_whole(number, entry.row, placed)) return;
 
     const Place place{HitKind::grain, id, no_triangle, tracer.world_.fill->type(id, placed)};
@@ -99,7 +102,8 @@ FillTracer::FillTracer(std::shared_ptr<const EmbreeDevice> device, const World& 
     margin_ = 0x1p-19 * extent + 0x1p-22 * rate_ + fill_.voxel() * 0x1p-22 / fill_.scale();
     float_margin_ = FloatMargin(margin_ * 0x1p19, *least, *largest);
     step_back_ = float_margin_.step_back;
-    const bool meshes = std::any_of(world.types.begin(), world.types.end(), [](const GrainType& type) { return type.exemplar != nullptr; });
+    const bool meshes = std::any_of(world.types.begin(), world.types.end(),
+                                    [](const GrainType& type) { return type.exemplar != nullptr; });
     if (meshes) reach_ = 2.001 * *largest;
     variants_.resize(tile.variants.size());
     for (uint32_t variant = 0; variant < variants_.size(); ++variant) make_variant(variant);
@@ -121,7 +125,8 @@ void FillTracer::make_variant(uint32_t number)
         const V3d& p = tile.variants[number][row];
         const double r = tile.radius[row];
         int first[3] = {0, 0, 0}, last[3] = {0, 0, 0};
-        // Only what all variants share stands in the neighbouring cells for certain; the others do not reach beyond their own.
+        // Only what all variants share stands in the neighbouring cells for certain; the others do not reach beyond
+        // their own.
         const bool everywhere = row < tile.shared || tile.variants.size() == 1;
         for (int axis = 0; axis < 3 && everywhere; ++axis) {
             if (p[axis] - r <= margin_) last[axis] = 1;
@@ -131,9 +136,11 @@ void FillTracer::make_variant(uint32_t number)
         for (int z = first[2]; z <= last[2]; ++z) {
             for (int y = first[1]; y <= last[1]; ++y) {
                 for (int x = first[0]; x <= last[0]; ++x) {
-                    spheres.push_back({static_cast<float>(p.x + x * tile.size.x), static_cast<float>(p.y + y * tile.size.y),
-                                       static_cast<float>(p.z + z * tile.size.z), float_margin_.widen(tile.radius[row])});
-                    variant.entries.push_back({row, static_cast<int8_t>(x), static_cast<int8_t>(y), static_cast<int8_t>(z)});
+                    spheres.push_back(
+                        {static_cast<float>(p.x + x * tile.size.x), static_cast<float>(p.y + y * tile.size.y),
+                         static_cast<float>(p.z + z * tile.size.z), float_margin_.widen(tile.radius[row])});
+                    variant.entries.push_back(
+                        {row, static_cast<int8_t>(x), static_cast<int8_t>(y), static_cast<int8_t>(z)});
                 }
             }
         }
@@ -156,13 +163,14 @@ void FillTracer::make_domain()
     domain_ = rtcNewScene(device_->get());
     rtcSetSceneFlags(domain_, RTC_SCENE_FLAG_ROBUST);
     RTCGeometry geometry = rtcNewGeometry(device_->get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<V3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(V3f),
-                                                               mesh.positions.size()));
+    auto* vertices = static_cast<V3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                               sizeof(V3f), mesh.positions.size()));
     auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                                    3 * sizeof(uint32_t), mesh.triangles.size()));
     device_->check("building a domain");
     for (size_t i = 0; i < mesh.positions.size(); ++i) vertices[i] = V3f(world_.space.point(mesh.positions[i]));
-    for (size_t i = 0; i < mesh.triangles.size(); ++i) std::copy(mesh.triangles[i].begin(), mesh.triangles[i].end(), indices + 3 * i);
+    for (size_t i = 0; i < mesh.triangles.size(); ++i)
+        std::copy(mesh.triangles[i].begin(), mesh.triangles[i].end(), indices + 3 * i);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(domain_, geometry, 0);
     rtcReleaseGeometry(geometry);
@@ -187,8 +195,8 @@ bool FillTracer::next_crossing(const TracerQuery& query, double s, double end, C
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     const V3d normal(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z);
     const double cosine = normal.dot(query.d) / normal.length();
-    // Rounding moves start and surface across each other, which moves the crossing along the ray by as much over the cosine. Where the
-    // ray all but glides along the surface it may be on either side.
+    // Rounding moves start and surface across each other, which moves the crossing along the ray by as much over the
+    // cosine. Where the ray all but glides along the surface it may be on either side.
     constexpr double least = 0x1p-10;
     const double margin = 0x1p-19 * (1 + start.length()) / std::max(std::abs(cosine), least);
     const double at = t + ray.ray.tfar;
@@ -280,7 +288,8 @@ void FillTracer::walk(TracerQuery& query, bool any) const
                 if (from >= inside.end && !find_inside(query, from, inside)) return;
                 if (inside.begin >= leave) break;
                 follow_inside(query, leave, inside);
-                if (kind != ProceduralFill::CellKind::outside) this->visit(visit, std::max(from, inside.begin), std::min(leave, inside.end), any);
+                if (kind != ProceduralFill::CellKind::outside)
+                    this->visit(visit, std::max(from, inside.begin), std::min(leave, inside.end), any);
                 if (any && query.place.kind != HitKind::none) return;
             }
             if (inside.begin > leave) {
@@ -305,11 +314,14 @@ void FillTracer::visit(Visit& visit, double begin, double end, bool any) const
     visit.starts_here = begin == 0 && reach_ > 0;
     if (visit.starts_here) visit.end = std::max(visit.end, reach_);
     const V3d size = fill_.tile().size;
-    const V3d corner(static_cast<double>(visit.cell.x) * size.x, static_cast<double>(visit.cell.y) * size.y, static_cast<double>(visit.cell.z) * size.z);
+    const V3d corner(static_cast<double>(visit.cell.x) * size.x, static_cast<double>(visit.cell.y) * size.y,
+                     static_cast<double>(visit.cell.z) * size.z);
     RTCRayHit ray = make_ray(visit.o + visit.start * visit.d - corner, visit.d, 0);
     ray.ray.tfar = visit.embree_end();
-    if (any) rtcOccluded1(variants_[visit.variant].scene, &visit.context, &ray.ray);
-    else rtcIntersect1(variants_[visit.variant].scene, &visit.context, &ray);
+    if (any)
+        rtcOccluded1(variants_[visit.variant].scene, &visit.context, &ray.ray);
+    else
+        rtcIntersect1(variants_[visit.variant].scene, &visit.context, &ray);
 }
 
 } // namespace scree

@@ -15,8 +15,9 @@ struct TracerQuery;
 /// Finds what a ray meets among the grains of a procedural fill: cell by cell along its segments inside the domain, one
 /// Embree scene for each variant of the tile.
 ///
-/// Embree proposes spheres of the tile; what is met is decided for the sphere as it lies in the scene, just as for listed
-/// grains. A cell's scene has the tile's spheres and those of its neighbours that reach into it, which all variants share.
+/// Embree proposes spheres of the tile; what is met is decided for the sphere as it lies in the scene, just as for
+/// listed grains. A cell's scene has the tile's spheres and those of its neighbours that reach into it, which all
+/// variants share.
 class FillTracer {
 public:
     /// `world` has a fill, and outlives this.
@@ -52,8 +53,8 @@ private:
     void walk(TracerQuery& query, bool any) const;
     /// The first crossing from s to end; false when there is none.
     bool next_crossing(const TracerQuery& query, double s, double end, Crossing& crossing) const;
-    /// The first part of the ray inside the domain from s on: it may begin before the true one and end after it. False when there
-    /// is none.
+    /// The first part of the ray inside the domain from s on: it may begin before the true one and end after it. False
+    /// when there is none.
     bool find_inside(const TracerQuery& query, double s, Inside& inside) const;
     /// Looks for the end of a part that goes on, up to `end`.
     void follow_inside(const TracerQuery& query, double end, Inside& inside) const;
@@ -68,10 +69,10 @@ private:
     const ProceduralFill& fill_;
     std::vector<Variant> variants_;
     RTCSceneTy* domain_ = nullptr;
-    double rate_ = 1;      // tile units a unit of length of the scene as rendered
-    double margin_ = 0;    // tile units: of places in a cell, float against double
+    double rate_ = 1; // tile units a unit of length of the scene as rendered
+    double margin_ = 0; // tile units: of places in a cell, float against double
     double step_back_ = 0; // tile units
-    double reach_ = 0;     // tile units: the largest diameter, if grains may be meshes
+    double reach_ = 0; // tile units: the largest diameter, if grains may be meshes
     FloatMargin float_margin_; // of the spheres in the tile's scenes
 };
 

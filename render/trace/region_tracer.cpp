@@ -1,8 +1,8 @@
 #include "render/trace/region_tracer.h"
 
-#include "render/embree/triangle.h"
 #include "render/embree/embree_device.h"
 #include "render/embree/embree_ray.h"
+#include "render/embree/triangle.h"
 
 #include <cmath>
 #include <limits>
@@ -19,8 +19,9 @@ std::array<V3d, 3> corners_of(const MediumRegion& region, uint32_t triangle)
 
 /// Where o + t d meets a triangle; false where it passes beside it or within its plane.
 ///
-/// On which side of an edge a ray passes is the sign of a volume, which for two triangles that share the edge is the same number: no ray goes between them
-/// (Platis and Theoharis 2003, in double). One through the edge itself passes where one does that starts next to nothing aside (Edelsbrunner and Mücke 1990).
+/// On which side of an edge a ray passes is the sign of a volume, which for two triangles that share the edge is the
+/// same number: no ray goes between them (Platis and Theoharis 2003, in double). One through the edge itself passes
+/// where one does that starts next to nothing aside (Edelsbrunner and Mücke 1990).
 bool meets(const std::array<V3d, 3>& corners, const V3d& o, const V3d& d, double& t, bool& enters)
 {
     const V3d a = corners[0] - o, b = corners[1] - o, c = corners[2] - o;
@@ -44,9 +45,10 @@ struct CrossingQuery {
     RTCIntersectContext context; // first: Embree hands it back
     const World& world;
     V3d o, d;
-    double ahead;                // the ray is met from o + ahead d on, as near to the regions as it comes: a double must tell what is left of it there
+    double ahead; // the ray is met from o + ahead d on, as near to the regions as it comes: a double must tell what is
+                  // left of it there
     double tmin, best, advanced; // Embree's ray starts at o + advanced d
-    double slack;                // what rounding to float may move a crossing by
+    double slack; // what rounding to float may move a crossing by
     const Crossing* last;
     Crossing crossing{};
     bool found = false;
@@ -88,7 +90,8 @@ void meet_box(const RTCIntersectFunctionNArguments* args)
     query.offer(args->geomID, args->primID, reinterpret_cast<RTCRayHit*>(args->rayhit)->ray);
 }
 
-/// The surface of a region as Embree is told of it: no ray that meets a triangle passes by its box, whatever rounding to float does to either.
+/// The surface of a region as Embree is told of it: no ray that meets a triangle passes by its box, whatever rounding
+/// to float does to either.
 struct WidenedSurface {
     const MediumRegion* region;
     double slack;
@@ -109,11 +112,11 @@ struct RegionTracer::Impl {
     std::shared_ptr<const EmbreeDevice> device;
     const World& world;
     RTCScene triangles = nullptr; // quick, and tight for rays as they are in float
-    RTCScene boxes = nullptr;     // around triangles: whatever a ray meets in double is in one that it meets in float
-    Imath::Box3d box;  // of all regions
+    RTCScene boxes = nullptr; // around triangles: whatever a ray meets in double is in one that it meets in float
+    Imath::Box3d box; // of all regions
     V3d middle{0};
     double radius = 0; // around the middle
-    double slack = 0;  // what rounding of a ray to float may move it by
+    double slack = 0; // what rounding of a ray to float may move it by
 
     Impl(std::shared_ptr<const EmbreeDevice> device_, const World& world_);
     ~Impl()
@@ -132,7 +135,8 @@ private:
     }
 };
 
-RegionTracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const World& world_) : device(std::move(device_)), world(world_)
+RegionTracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const World& world_)
+    : device(std::move(device_)), world(world_)
 {
     for (const MediumRegion& region : world.regions) box.extendBy(region.bounds());
     middle = box.center();
@@ -148,11 +152,14 @@ RegionTracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const Worl
     for (uint32_t i = 0; i < world.regions.size(); ++i) {
         const MediumRegion& region = world.regions[i];
         RTCGeometry quick = rtcNewGeometry(device->get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* vertices = static_cast<V3f*>(rtcSetNewGeometryBuffer(quick, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(V3f), region.positions.size()));
-        auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(quick, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), region.triangles.size()));
+        auto* vertices = static_cast<V3f*>(rtcSetNewGeometryBuffer(quick, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                   sizeof(V3f), region.positions.size()));
+        auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
+            quick, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), region.triangles.size()));
         device->check("building the surface of a medium");
         std::copy(region.positions.begin(), region.positions.end(), vertices);
-        for (size_t t = 0; t < region.triangles.size(); ++t) std::copy(region.triangles[t].begin(), region.triangles[t].end(), indices + 3 * t);
+        for (size_t t = 0; t < region.triangles.size(); ++t)
+            std::copy(region.triangles[t].begin(), region.triangles[t].end(), indices + 3 * t);
         rtcSetGeometryIntersectFilterFunction(quick, filter_triangle);
         add(triangles, quick, i);
 
@@ -176,7 +183,8 @@ void RegionTracer::Impl::find(CrossingQuery& query, RTCScene scene) const
     rtcIntersect1(scene, &query.context, &ray);
 }
 
-RegionTracer::RegionTracer(std::shared_ptr<const EmbreeDevice> device, const World& world) : impl_(std::make_unique<Impl>(std::move(device), world))
+RegionTracer::RegionTracer(std::shared_ptr<const EmbreeDevice> device, const World& world)
+    : impl_(std::make_unique<Impl>(std::move(device), world))
 {
     for (size_t i = 0; i < world.regions.size(); ++i) {
         if (world.regions[i].instead_of_grains) instead_of_grains_ |= RegionSet{1} << i;
@@ -191,7 +199,8 @@ V3d RegionTracer::normal(const Crossing& crossing) const
     return unit_normal(corners_of(impl_->world.regions[crossing.region], crossing.triangle));
 }
 
-bool RegionTracer::find(const V3d& o, const V3d& d, double tmin, double tmax, const Crossing* last, bool& surely, Crossing& crossing) const
+bool RegionTracer::find(const V3d& o, const V3d& d, double tmin, double tmax, const Crossing* last, bool& surely,
+                        Crossing& crossing) const
 {
     // A ray starts no farther away than the regions' size.
     const V3d to = impl_->middle - o;
@@ -199,7 +208,8 @@ bool RegionTracer::find(const V3d& o, const V3d& d, double tmin, double tmax, co
     if (along + reach < tmin || along - reach > tmax || (to - along * d).length2() > reach * reach) return false;
     const double start = std::max(tmin, along - reach), slack = 4 * impl_->slack;
     // One nearly along a face needs a long way back to be on its near side in float too.
-    CrossingQuery query{{}, impl_->world, o, d, std::max(0.0, along - reach), tmin, tmax, start - 0x1p8 * slack, slack, last};
+    CrossingQuery query{{},   impl_->world,          o,     d,   std::max(0.0, along - reach), tmin,
+                        tmax, start - 0x1p8 * slack, slack, last};
     rtcInitIntersectContext(&query.context);
     if (!surely) {
         impl_->find(query, impl_->triangles);
@@ -215,7 +225,8 @@ bool RegionTracer::find(const V3d& o, const V3d& d, double tmin, double tmax, co
     return query.found;
 }
 
-bool RegionTracer::next(const V3d& o, const V3d& d, double tmin, double tmax, const Crossing* last, RegionSet& regions, Crossing& crossing) const
+bool RegionTracer::next(const V3d& o, const V3d& d, double tmin, double tmax, const Crossing* last, RegionSet& regions,
+                        Crossing& crossing) const
 {
     // What is ahead tells where the ray is: of one that is in a region, all the way.
     const double end = regions != 0 ? std::numeric_limits<double>::infinity() : tmax;
@@ -238,7 +249,8 @@ RegionSet RegionTracer::inside(const V3d& o, const V3d& d) const
     Crossing crossing;
     const Crossing* last = nullptr;
     bool surely = true; // one that is missed may be the only one
-    for (double t = 0; find(o, d, t, std::numeric_limits<double>::infinity(), last, surely, crossing); t = crossing.t, last = &crossing) {
+    for (double t = 0; find(o, d, t, std::numeric_limits<double>::infinity(), last, surely, crossing);
+         t = crossing.t, last = &crossing) {
         const RegionSet bit = RegionSet{1} << crossing.region;
         if (!(met & bit) && !crossing.enters) in |= bit;
         met |= bit;
@@ -254,7 +266,8 @@ RegionSet RegionTracer::after(RegionSet from, const V3d& a, const V3d& b) const
     const V3d d = way / length;
     Crossing crossing;
     const Crossing* last = nullptr;
-    for (double t = 0; next(a, d, t, length, last, from, crossing); t = crossing.t, last = &crossing) from = after(from, crossing);
+    for (double t = 0; next(a, d, t, length, last, from, crossing); t = crossing.t, last = &crossing)
+        from = after(from, crossing);
     return from;
 }
 

@@ -35,7 +35,8 @@ void build_class(const EmbreeDevice& device, const GrainStore& grains, size_t sp
     const auto attach = [&](uint32_t id, size_t begin, size_t end) {
         if (begin == end) return;
         RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT);
-        auto* buffer = static_cast<GrainStore::Sphere*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, sizeof(GrainStore::Sphere), end - begin));
+        auto* buffer = static_cast<GrainStore::Sphere*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, sizeof(GrainStore::Sphere), end - begin));
         device.check("building grains");
         for (size_t i = begin; i < end; ++i) {
             const V3f c(grains.centre(size.grains[i]) - size.centre);

@@ -1,5 +1,5 @@
-#include "render/embree/triangle.h"
 #include "render/embree/embree_ray.h"
+#include "render/embree/triangle.h"
 #include "render/trace/tracer_impl.h"
 
 #include <cmath>
@@ -107,7 +107,8 @@ bool TracerQuery::offer_sphere(const Place& grain, const GrainSphere& sphere, do
     if (attenuates && t < best) {
         const V3d to = sphere.centre - o;
         const double along = to.dot(d);
-        passed *= tracer->world.types[grain.type].gsdf->alpha0((to - along * d).length2() / (sphere.radius * sphere.radius));
+        passed *=
+            tracer->world.types[grain.type].gsdf->alpha0((to - along * d).length2() / (sphere.radius * sphere.radius));
         if (passed > 0) return false;
     }
     return offer(grain, t);
@@ -125,7 +126,8 @@ bool TracerQuery::offer_mesh(const Place& grain, const GrainSphere& sphere)
     const bool own = from.kind == HitKind::grain && from.index == grain.index;
     ExemplarHit hit;
     const Exemplar& exemplar = *world.types[grain.type].exemplar;
-    if (!exemplar.intersect(local.o + entry * local.d, local.d, local.rounding, end, Facing::entering, own ? from.triangle : no_triangle, hit)) {
+    if (!exemplar.intersect(local.o + entry * local.d, local.d, local.rounding, end, Facing::entering,
+                            own ? from.triangle : no_triangle, hit)) {
         return false;
     }
     if (!offer({HitKind::grain, grain.index, hit.triangle, grain.type}, (entry + hit.t) * local.radius)) return false;
@@ -172,8 +174,8 @@ void tracer_filter(const RTCFilterFunctionNArguments* args)
         return;
     } else if (hit->geomID == Tracer::Impl::mesh_id) {
         const GrainSphere sphere = world.sphere(grain);
-        // The exemplar lies at or beyond the sphere's near face: the ray's end moves out from there, but never beyond the
-        // nearest hit known.
+        // The exemplar lies at or beyond the sphere's near face: the ray's end moves out from there, but never beyond
+        // the nearest hit known.
         if (!query.is_mesh_due(sphere, *hit)) return;
         if (!query.offer_mesh({HitKind::grain, grain, no_triangle, world.grains.type_codes[grain]}, sphere)) return;
         ray->tfar = query.embree_end();
@@ -183,15 +185,20 @@ void tracer_filter(const RTCFilterFunctionNArguments* args)
         return;
     } else if (tracer.is_surface(hit->geomID)) {
         place = {HitKind::surface, hit->geomID - Tracer::Impl::first_surface, hit->primID};
-        if (query.from.kind == HitKind::surface && query.from.index == place.index && query.from.triangle == place.triangle) return;
+        if (query.from.kind == HitKind::surface && query.from.index == place.index &&
+            query.from.triangle == place.triangle)
+            return;
         const auto c = corners(world.surfaces[place.index], place.triangle);
         // Not Embree's t, which depends on where its ray starts.
         t = meet_plane(c, query.o, query.d).t;
         if (!std::isfinite(t)) return;
-        // Within what rounding to float may have moved the start, a neighbour of what the ray leaves may seem to be met.
+        // Within what rounding to float may have moved the start, a neighbour of what the ray leaves may seem to be
+        // met.
         const double rounding = 0x1p-20 * (query.o.length() + c[0].length());
         const double nearer = std::min<double>(t, ray->tfar + query.advanced);
-        if ((query.from.kind != HitKind::none || t < 0) && nearer <= rounding && !meets_triangle(c, query.o, query.d, 0x1p-28 * rounding)) return;
+        if ((query.from.kind != HitKind::none || t < 0) && nearer <= rounding &&
+            !meets_triangle(c, query.o, query.d, 0x1p-28 * rounding))
+            return;
     } else {
         place = {HitKind::light, tracer.light_of(hit->geomID)};
         if (place.index == query.target) return;
@@ -241,8 +248,8 @@ double Tracer::scene_radius() const { return impl_->radius; }
 
 namespace {
 
-/// Moves the start of a ray from far away to near the scene's sphere, where a float is precise, and by the step back that
-/// widened spheres need; false when it misses.
+/// Moves the start of a ray from far away to near the scene's sphere, where a float is precise, and by the step back
+/// that widened spheres need; false when it misses.
 bool approach(const Tracer::Impl& tracer, TracerQuery& query)
 {
     const double radius = tracer.radius;
@@ -282,7 +289,8 @@ Hit Tracer::intersect_inside(const Place& grain, const V3d& o, const V3d& d, con
     if (const auto& exemplar = world.types[grain.type].exemplar) {
         const LocalRay local(world, grain, sphere, o, d);
         ExemplarHit hit;
-        if (exemplar->intersect(local.o, local.d, local.rounding, 2.5, Facing::leaving, on_it ? from.triangle : no_triangle, hit)) {
+        if (exemplar->intersect(local.o, local.d, local.rounding, 2.5, Facing::leaving,
+                                on_it ? from.triangle : no_triangle, hit)) {
             query.best = hit.t * local.radius;
             query.place = {HitKind::grain, grain.index, hit.triangle, grain.type};
             query.u = hit.u;
@@ -304,7 +312,8 @@ Hit Tracer::intersect_inside(const Place& grain, const V3d& o, const V3d& d, con
     return make_hit(query);
 }
 
-double Tracer::visibility(const V3d& o, const V3d& d, double tmax, const Place& from, uint32_t target, GrainDetail detail) const
+double Tracer::visibility(const V3d& o, const V3d& d, double tmax, const Place& from, uint32_t target,
+                          GrainDetail detail) const
 {
     TracerQuery query(*impl_, o, d, from);
     query.best = tmax;

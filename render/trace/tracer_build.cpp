@@ -18,10 +18,12 @@ Tracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const World& wor
         attach_grains(analytic_id, 0, grains.analytic_count);
         attach_grains(mesh_id, grains.analytic_count, grains.size() - grains.analytic_count);
     }
-    for (uint32_t i = grains.analytic_count; i < grains.size(); ++i) mesh_reach = std::max(mesh_reach, 2.001 * grains.radius(i));
+    for (uint32_t i = grains.analytic_count; i < grains.size(); ++i)
+        mesh_reach = std::max(mesh_reach, 2.001 * grains.radius(i));
 
-    const bool inside_possible = std::any_of(world.types.begin(), world.types.end(),
-                                             [](const GrainType& type) { return type.material.transmits() || type.gsdf; });
+    const bool inside_possible = std::any_of(world.types.begin(), world.types.end(), [](const GrainType& type) {
+        return type.material.transmits() || type.gsdf;
+    });
     if (inside_possible && world.has_grains() && !world.surfaces.empty()) {
         surface_scene = rtcNewScene(device->get());
         rtcSetSceneFlags(surface_scene, RTC_SCENE_FLAG_ROBUST);
@@ -29,7 +31,8 @@ Tracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const World& wor
     const bool some_replaced = std::ranges::any_of(world.regions, &MediumRegion::instead_of_grains);
     if (some_replaced) {
         largest_radius = world.fill ? world.fill->largest_radius() : 0;
-        for (uint64_t i = 0; i < grains.size(); ++i) largest_radius = std::max<double>(largest_radius, grains.radius(i));
+        for (uint64_t i = 0; i < grains.size(); ++i)
+            largest_radius = std::max<double>(largest_radius, grains.radius(i));
     }
     if (some_replaced && grains.size() > 0) {
         open_scene = rtcNewScene(device->get());
@@ -65,7 +68,8 @@ Tracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const World& wor
     const auto farthest = [](float lo, float hi) { return std::max(std::abs(double{lo}), std::abs(double{hi})); };
     V3d far(0);
     if (bounds.lower_x <= bounds.upper_x) {
-        far = V3d(farthest(bounds.lower_x, bounds.upper_x), farthest(bounds.lower_y, bounds.upper_y), farthest(bounds.lower_z, bounds.upper_z));
+        far = V3d(farthest(bounds.lower_x, bounds.upper_x), farthest(bounds.lower_y, bounds.upper_y),
+                  farthest(bounds.lower_z, bounds.upper_z));
     }
     for (uint32_t i = 0; sizes && i < grains.size(); ++i) {
         const V3d c = grains.centre(i);
@@ -124,18 +128,18 @@ RTCGeometry Tracer::Impl::make_light(const Light& light) const
 {
     if (light.kind == LightKind::sphere) {
         RTCGeometry geometry = rtcNewGeometry(device->get(), RTC_GEOMETRY_TYPE_SPHERE_POINT);
-        auto* sphere = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
-                                                                   4 * sizeof(float), 1));
+        auto* sphere = static_cast<float*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), 1));
         device->check("building a light");
         const V3f c(light.center);
         std::copy_n(std::array<float, 4>{c.x, c.y, c.z, static_cast<float>(light.radius)}.begin(), 4, sphere);
         return geometry;
     }
     RTCGeometry geometry = rtcNewGeometry(device->get(), RTC_GEOMETRY_TYPE_QUAD);
-    auto* vertices = static_cast<V3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                               sizeof(V3f), 4));
-    auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
-                                                                   4 * sizeof(uint32_t), 1));
+    auto* vertices = static_cast<V3f*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(V3f), 4));
+    auto* indices = static_cast<uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(uint32_t), 1));
     device->check("building a light");
     vertices[0] = V3f(light.corner);
     vertices[1] = V3f(light.corner + light.edge1);

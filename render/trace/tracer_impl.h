@@ -8,8 +8,8 @@
 
 #include <embree3/rtcore.h>
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -24,24 +24,28 @@ struct Tracer::Impl {
 
     std::shared_ptr<const EmbreeDevice> device;
     const World& world;
-    RTCScene scene = nullptr;           // everything
-    RTCScene open_scene = nullptr;      // everything but grains, where a medium stands for some; else null
-    RTCScene surface_scene = nullptr;   // surfaces alone, for rays inside grains; null when no ray can be inside one
+    RTCScene scene = nullptr; // everything
+    RTCScene open_scene = nullptr; // everything but grains, where a medium stands for some; else null
+    RTCScene surface_scene = nullptr; // surfaces alone, for rays inside grains; null when no ray can be inside one
     uint32_t first_light = first_surface;
-    std::vector<uint32_t> light_of_id;  // geometry id - first_light -> light
-    double largest_radius = 0;          // of a grain, where a medium stands for some
-    double mesh_reach = 0;              // the largest diameter of a mesh grain: how far on a sphere around a ray's start ends
+    std::vector<uint32_t> light_of_id; // geometry id - first_light -> light
+    double largest_radius = 0; // of a grain, where a medium stands for some
+    double mesh_reach = 0; // the largest diameter of a mesh grain: how far on a sphere around a ray's start ends
     double radius = 0;
     std::unique_ptr<const RegionTracer> regions; // where there are media
     std::unique_ptr<const SizeClasses> sizes; // where grains differ so much in size that `scene` is without them
-    std::unique_ptr<const FillTracer> fill; // where the grains are those of a fill: the scene then has surfaces and lights
+    std::unique_ptr<const FillTracer>
+        fill; // where the grains are those of a fill: the scene then has surfaces and lights
 
     Impl(std::shared_ptr<const EmbreeDevice> device, const World& world);
     ~Impl();
 
     /// How far Embree's rays in `scene` start before a ray's own start.
     double step_back() const { return sizes ? 0 : world.margin().step_back; }
-    RTCScene scene_with(GrainDetail detail) const { return detail == GrainDetail::none && open_scene ? open_scene : scene; }
+    RTCScene scene_with(GrainDetail detail) const
+    {
+        return detail == GrainDetail::none && open_scene ? open_scene : scene;
+    }
     bool is_surface(uint32_t id) const { return id >= first_surface && id < first_light; }
     uint32_t light_of(uint32_t id) const { return light_of_id[id - first_light]; }
 
@@ -58,18 +62,18 @@ struct TracerQuery {
     const Tracer::Impl* tracer;
     const SizeClass* sized = nullptr; // whose scene Embree is asked; null: the tracer's
     V3d o, d;
-    double advanced = 0;         // Embree's ray starts at o + advanced d
-    double reach = 0;            // Embree's ray is never shorter, so that every sphere around its start is proposed
+    double advanced = 0; // Embree's ray starts at o + advanced d
+    double reach = 0; // Embree's ray is never shorter, so that every sphere around its start is proposed
     Place from;
-    uint32_t target = no_light;  // a light that does not count
-    bool proxies = false;        // grains count as their bounding spheres
-    bool attenuates = false;     // proxies let light through, and do not count when they let all of it
+    uint32_t target = no_light; // a light that does not count
+    bool proxies = false; // grains count as their bounding spheres
+    bool attenuates = false; // proxies let light through, and do not count when they let all of it
     const V3d* around = nullptr; // only spheres that this place lies in count
-    double passed = 1;           // by the proxies so far
-    double beyond = 0;           // proxies up to there do not count
+    double passed = 1; // by the proxies so far
+    double beyond = 0; // proxies up to there do not count
     double best = std::numeric_limits<double>::infinity(); // from o; nothing farther is accepted
-    Place place;                 // of the nearest
-    float u = 0, v = 0;          // on its triangle
+    Place place; // of the nearest
+    float u = 0, v = 0; // on its triangle
 
     TracerQuery(const Tracer::Impl& impl, const V3d& o_, const V3d& d_, const Place& from_)
         : tracer(&impl), o(o_), d(d_), from(from_)
@@ -97,7 +101,8 @@ struct TracerQuery {
         if (sized) return sized->grains[hit.primID + (is_mesh ? sized->spheres : 0)];
         return hit.primID + (is_mesh ? tracer->world.grains.analytic_count : 0);
     }
-    /// Whether a mesh grain's sphere, met at Embree's hit, is to be offered: entered there, or left there with o inside.
+    /// Whether a mesh grain's sphere, met at Embree's hit, is to be offered: entered there, or left there with o
+    /// inside.
     bool is_mesh_due(const GrainSphere& sphere, const RTCHit& hit) const;
 };
 

@@ -1,15 +1,15 @@
 #pragma once
 
+#include "base/math.h"
+#include "base/render_space.h"
 #include "render/grains/exemplar.h"
 #include "render/grains/grain_fill.h"
 #include "render/grains/grain_store.h"
 #include "render/gsdf/gsdf.h"
 #include "render/lights/light.h"
 #include "render/materials/material.h"
-#include "base/math.h"
 #include "render/media/clearance_field.h"
 #include "render/media/medium_region.h"
-#include "base/render_space.h"
 
 #include <Imath/ImathBox.h>
 
@@ -23,7 +23,7 @@ namespace scree {
 /// A grain type ready for tracing: without an exemplar its shape is the bounding sphere itself.
 struct GrainType {
     std::string name;
-    Material material;                  ///< absorption in render coordinates
+    Material material; ///< absorption in render coordinates
     std::shared_ptr<const Exemplar> exemplar;
     std::shared_ptr<const Gsdf> gsdf = nullptr; ///< its scattering as a proxy, where an integrator may ask for it
 };
@@ -47,7 +47,8 @@ struct World {
     std::vector<GrainType> types;
     std::vector<Surface> surfaces;
     std::vector<MediumRegion> regions;
-    std::shared_ptr<const ClearanceField> clearance; ///< within the regions, from all that may be met there; null: nothing is known
+    std::shared_ptr<const ClearanceField>
+        clearance; ///< within the regions, from all that may be met there; null: nothing is known
     LightSet lights;
     uint64_t replaced_grains = 0; ///< that are no longer there, as a medium stands for all of them
 

@@ -1,9 +1,9 @@
 // Picture files through OpenImageIO, and that nothing loads it but a picture.
 
-#include "base/drawing/picture_file.h"
 #include "base/drawing/picture.h"
-#include "tests/builders/test_files.h"
+#include "base/drawing/picture_file.h"
 #include "tests/builders/scree_process.h"
+#include "tests/builders/test_files.h"
 
 #include <gmock/gmock.h>
 
@@ -24,7 +24,8 @@ TEST(PictureFile, EightBitValuesComeBackExactly)
     std::vector<float> values;
     for (int y = 0; y < 3; ++y) {
         for (int x = 0; x < 256; ++x) {
-            const ScreenColor c{static_cast<uint8_t>(x), static_cast<uint8_t>(255 - x), static_cast<uint8_t>(x * 85 * y)};
+            const ScreenColor c{static_cast<uint8_t>(x), static_cast<uint8_t>(255 - x),
+                                static_cast<uint8_t>(x * 85 * y)};
             drawn.fill_rectangle(x, y, 1, 1, c);
             for (const uint8_t v : {c.r, c.g, c.b}) values.push_back(static_cast<float>(v) / 255);
         }
@@ -39,7 +40,8 @@ TEST(PictureFile, EightBitValuesComeBackExactly)
         ASSERT_EQ(picture.channels, 3u);
         EXPECT_TRUE(picture.whole);
         EXPECT_TRUE(picture.eight_bit);
-        for (size_t i = 0; i < values.size(); ++i) ASSERT_EQ(std::lround(255 * picture.values[i]), std::lround(255 * values[i])) << i;
+        for (size_t i = 0; i < values.size(); ++i)
+            ASSERT_EQ(std::lround(255 * picture.values[i]), std::lround(255 * values[i])) << i;
     }
 }
 
@@ -66,7 +68,8 @@ TEST(PictureFile, FormatWithoutEightBitIsTold)
 
 TEST(PictureFile, KnowsItsFormats)
 {
-    for (const char* name : {"a.png", "a.jpg", "no/such/folder/a.exr", "a.tif"}) EXPECT_TRUE(can_write_picture_file(name)) << name;
+    for (const char* name : {"a.png", "a.jpg", "no/such/folder/a.exr", "a.tif"})
+        EXPECT_TRUE(can_write_picture_file(name)) << name;
     for (const char* name : {"a.doc", "a", ""}) EXPECT_FALSE(can_write_picture_file(name)) << name;
 }
 

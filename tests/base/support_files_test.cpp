@@ -25,7 +25,8 @@ TEST(ByteSource, GivesTheSameBytesHoweverPackedAndAskedFor)
     const TemporaryFolder folder;
     std::string bytes;
     for (unsigned i = 0; i < 200000; ++i) bytes += static_cast<char>(i * i >> 5);
-    for (const std::string& packed : {bytes, test::gzip(bytes), test::zstd(bytes), test::gzip(bytes.substr(0, 7)) + test::gzip(bytes.substr(7))})
+    for (const std::string& packed :
+         {bytes, test::gzip(bytes), test::zstd(bytes), test::gzip(bytes.substr(0, 7)) + test::gzip(bytes.substr(7))})
         for (const size_t step : {1u, 7u, 4096u, 1000000u}) {
             ByteSource source(folder.write("a", packed));
             EXPECT_EQ(read_all(source, step), bytes);

@@ -1,8 +1,8 @@
 #include "tests/builders/grain_beds.h"
 
+#include "base/warp.h"
 #include "render/grains/library/grain_library.h"
 #include "render/gsdf/gsdf_builder.h"
-#include "base/warp.h"
 #include "tests/builders/shapes.h"
 
 #include <tbb/parallel_for.h>
@@ -18,7 +18,8 @@ std::unique_ptr<TestScene> lay(const BedGrain& grain, double fraction, uint64_t 
     auto scene = std::make_unique<TestScene>();
     const uint32_t type = scene->add_type(grain.material, grain.shape);
     scene->set_gsdf(type, grain.gsdf);
-    static std::map<std::pair<double, uint64_t>, std::vector<PackedSphere>> packings; // costly, and the same for every grain
+    static std::map<std::pair<double, uint64_t>, std::vector<PackedSphere>>
+        packings; // costly, and the same for every grain
     auto& packing = packings[{fraction, count}];
     if (packing.empty()) packing = push_apart(count, fraction, 1, 1e-3, 11);
     scene->add_grains(packing, type);
@@ -42,18 +43,24 @@ std::vector<BedGrain> bed_grains(double gsdf_error)
     static const EmbreeDevice device;
     Material tea = dielectric(1.5);
     tea.absorption = Color(0.05f, 0.2f, 0.8f);
-    std::vector<BedGrain> grains{{"glass spheres", dielectric(1.5), nullptr, nullptr}, {"tea glass spheres", tea, nullptr, nullptr},
-                                 {"white 0.9 spheres", lambert(0.9f), nullptr, nullptr},
-                                 {"glass cubes", dielectric(1.5), std::make_shared<Exemplar>(device, cube(), "cube"), nullptr}};
+    std::vector<BedGrain> grains{
+        {"glass spheres", dielectric(1.5), nullptr, nullptr},
+        {"tea glass spheres", tea, nullptr, nullptr},
+        {"white 0.9 spheres", lambert(0.9f), nullptr, nullptr},
+        {"glass cubes", dielectric(1.5), std::make_shared<Exemplar>(device, cube(), "cube"), nullptr}};
     for (const char* name : {"sugar", "flour"}) {
         const LibraryGrain& grain = *find_library_grain(name);
         Material material = grain.material;
         material.absorption *= static_cast<float>(grain.typical_radius);
-        grains.push_back({name, material, std::make_shared<Exemplar>(device, make_grain_shape(grain, {0, 2000, {}}, name), name), nullptr});
+        grains.push_back({name, material,
+                          std::make_shared<Exemplar>(device, make_grain_shape(grain, {0, 2000, {}}, name), name),
+                          nullptr});
     }
     for (BedGrain& grain : grains) {
-        if (grain.name == "tea glass spheres") grain.gsdf = grains[0].gsdf; // one precomputation serves every colour
-        else grain.gsdf = build_gsdf({grain.shape.get(), grain.material}, {gsdf_error});
+        if (grain.name == "tea glass spheres")
+            grain.gsdf = grains[0].gsdf; // one precomputation serves every colour
+        else
+            grain.gsdf = build_gsdf({grain.shape.get(), grain.material}, {gsdf_error});
     }
     return grains;
 }

@@ -13,12 +13,13 @@ namespace scree {
 /// What the grains of a bed are: for comparing proxies with grains as they are.
 struct BedGrain {
     std::string name;
-    Material material;                       ///< absorption for a grain of radius 1
-    std::shared_ptr<const Exemplar> shape;   ///< null: spheres
+    Material material; ///< absorption for a grain of radius 1
+    std::shared_ptr<const Exemplar> shape; ///< null: spheres
     std::shared_ptr<const Gsdf> gsdf;
 };
 
-/// Spheres of glass, absorbing glass and 0.9 white, and mesh grains: cubes of glass, sugar and flour of the library (at their natural absorption).
+/// Spheres of glass, absorbing glass and 0.9 white, and mesh grains: cubes of glass, sugar and flour of the library (at
+/// their natural absorption).
 std::vector<BedGrain> bed_grains(double gsdf_error);
 
 /// A cube full of grains of radius 1 at a fraction, lit by a bright upper half of the sky.

@@ -56,8 +56,14 @@ private:
             }
         }
     }
-    int64_t coordinate(double x) const { return std::clamp<int64_t>(static_cast<int64_t>(x / edge_ * static_cast<double>(n_)), 0, n_ - 1); }
-    size_t cell_of(const V3d& p) const { return static_cast<size_t>((coordinate(p.z) * n_ + coordinate(p.y)) * n_ + coordinate(p.x)); }
+    int64_t coordinate(double x) const
+    {
+        return std::clamp<int64_t>(static_cast<int64_t>(x / edge_ * static_cast<double>(n_)), 0, n_ - 1);
+    }
+    size_t cell_of(const V3d& p) const
+    {
+        return static_cast<size_t>((coordinate(p.z) * n_ + coordinate(p.y)) * n_ + coordinate(p.x));
+    }
 
     const std::vector<PackedSphere>& spheres_;
     double edge_;
@@ -82,10 +88,12 @@ double packing_edge(const std::vector<PackedSphere>& spheres, double fraction)
 std::vector<PackedSphere> push_apart(uint64_t count, double fraction, double smallest, double overlap, uint64_t seed)
 {
     std::vector<PackedSphere> spheres(count);
-    for (uint64_t i = 0; i < count; ++i) spheres[i].radius = smallest + (1 - smallest) * unit_double(hash_index(i, seed, 0));
+    for (uint64_t i = 0; i < count; ++i)
+        spheres[i].radius = smallest + (1 - smallest) * unit_double(hash_index(i, seed, 0));
     const double edge = packing_edge(spheres, fraction);
     for (uint64_t i = 0; i < count; ++i) {
-        for (int a = 0; a < 3; ++a) spheres[i].center[a] = edge * unit_double(hash_index(i, seed, static_cast<uint64_t>(a) + 1));
+        for (int a = 0; a < 3; ++a)
+            spheres[i].center[a] = edge * unit_double(hash_index(i, seed, static_cast<uint64_t>(a) + 1));
     }
     std::vector<V3d> push(count);
     for (int round = 0; round < 1000; ++round) {

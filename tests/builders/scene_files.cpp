@@ -47,11 +47,13 @@ std::string dump_text(const std::vector<std::vector<DumpGrain>>& frames, bool or
                 hi[a] = std::max(hi[a], g.center[a] + 2 * g.radius);
             }
         }
-        text += fmt::format("ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff ff ff\n", 100 * f, frames[f].size());
+        text += fmt::format("ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff ff ff\n", 100 * f,
+                            frames[f].size());
         for (int a = 0; a < 3; ++a) text += fmt::format("{:.17g} {:.17g}\n", lo[a], hi[a]);
         text += fmt::format("ITEM: ATOMS id type x y z radius{}\n", orientations ? " quatw quati quatj quatk" : "");
         for (const DumpGrain& g : frames[f]) {
-            text += fmt::format("{} {} {:.17g} {:.17g} {:.17g} {:.17g}", g.id, g.type, g.center.x, g.center.y, g.center.z, g.radius);
+            text += fmt::format("{} {} {:.17g} {:.17g} {:.17g} {:.17g}", g.id, g.type, g.center.x, g.center.y,
+                                g.center.z, g.radius);
             const Imath::Quatd& q = g.orientation;
             if (orientations) text += fmt::format(" {:.17g} {:.17g} {:.17g} {:.17g}", q.r, q.v.x, q.v.y, q.v.z);
             text += "\n";
@@ -74,9 +76,13 @@ std::string SceneFiles::write(const TemporaryFolder& folder) const
         const V3d p = V3d(x, y, z) * scale + offset;
         return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", p.x, p.y, p.z);
     };
-    const auto vector = [&](double x, double y, double z) { return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", x * scale, y * scale, z * scale); };
+    const auto vector = [&](double x, double y, double z) {
+        return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", x * scale, y * scale, z * scale);
+    };
     const auto length = [&](double x) { return fmt::format("{:.17g}", x * scale); };
-    const auto rgb_per_length = [&](double r, double g, double b) { return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", r / scale, g / scale, b / scale); };
+    const auto rgb_per_length = [&](double r, double g, double b) {
+        return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", r / scale, g / scale, b / scale);
+    };
 
     auto moved = frames;
     for (auto& frame : moved) {
@@ -93,13 +99,20 @@ std::string SceneFiles::write(const TemporaryFolder& folder) const
     folder.write("floor.obj", obj_text(plane));
 
     std::string text = "// Written by a test.\n{\n";
-    text += fmt::format(R"("camera": {{"origin": {}, "target": {}, "fov": 40, "aperture": {}, "focus": {}}},)", point(-9, -11, 7), point(0, 0, -1), length(aperture), length(14)) + "\n";
+    text += fmt::format(R"("camera": {{"origin": {}, "target": {}, "fov": 40, "aperture": {}, "focus": {}}},)",
+                        point(-9, -11, 7), point(0, 0, -1), length(aperture), length(14)) +
+            "\n";
     text += "\"film\": " + film + ",\n";
     text += fmt::format(R"("lights": [{{"kind": "constant", "radiance": [0.3, 0.35, 0.4]}},
   {{"kind": "distant", "direction": [0.3, 0.4, -1], "irradiance": 1.5, "angle": 4}},
   {{"kind": "rectangle", "corner": {}, "edges": [{}, {}], "radiance": [5, 4, 3]}},
-  {{"kind": "sphere", "center": {}, "radius": {}, "radiance": 7}}],)", point(-3, -8, 9), vector(4, 0, 0), vector(0, 3, 1), point(6, -5, 4), length(0.75)) + "\n";
-    if (floor) text += R"("surfaces": [{"mesh": "floor.obj", "material": {"kind": "lambert", "reflectance": [0.6, 0.5, 0.4]}}],)" "\n";
+  {{"kind": "sphere", "center": {}, "radius": {}, "radiance": 7}}],)",
+                        point(-3, -8, 9), vector(4, 0, 0), vector(0, 3, 1), point(6, -5, 4), length(0.75)) +
+            "\n";
+    if (floor)
+        text +=
+            R"("surfaces": [{"mesh": "floor.obj", "material": {"kind": "lambert", "reflectance": [0.6, 0.5, 0.4]}}],)"
+            "\n";
     text += fmt::format(R"("grains": {{"types": {{
     "glass": {{"shape": "sphere", "material": {{"kind": "dielectric", "ior": 1.5, "absorption": {}}}}},
     "clay": {{"shape": "sphere", "material": {{"kind": "lambert", "reflectance": [0.8, 0.5, 0.3]}}}},
@@ -107,7 +120,8 @@ std::string SceneFiles::write(const TemporaryFolder& folder) const
     "gem": {{"shape": {{"mesh": "ball.obj"}}, "material": {{"kind": "dielectric", "ior": 1.4, "roughness": 0.3, "absorption": {}}}}}}},
   "assembly": {{"dump": "grains.dump", "types": {{"1": "glass", "2": "clay", "3": "cube", "4": "gem"}}}}}}
 }}
-)", rgb_per_length(0.25, 0.5, 0.125), rgb_per_length(0.125, 0.25, 0.5));
+)",
+                        rgb_per_length(0.25, 0.5, 0.125), rgb_per_length(0.125, 0.25, 0.5));
     return folder.write("scene.json", text);
 }
 
@@ -147,14 +161,19 @@ Picture read_picture(const std::filesystem::path& path)
             throw std::runtime_error(std::string("a channel of half floats: ") + it.name());
         }
         const std::ptrdiff_t row = 4 * static_cast<std::ptrdiff_t>(picture.width());
-        buffer.insert(it.name(), Imf::Slice(it.channel().type, memory - picture.data.min.x * 4 - picture.data.min.y * row, 4, static_cast<size_t>(row)));
+        buffer.insert(it.name(),
+                      Imf::Slice(it.channel().type, memory - picture.data.min.x * 4 - picture.data.min.y * row, 4,
+                                 static_cast<size_t>(row)));
     }
     file.setFrameBuffer(buffer);
     file.readPixels(picture.data.min.y, picture.data.max.y);
     for (auto it = header.begin(); it != header.end(); ++it) {
-        if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute())) picture.texts[it.name()] = text->value();
-        if (const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&it.attribute())) picture.numbers[it.name()] = number->value();
-        if (const auto* matrix = dynamic_cast<const Imf::M44fAttribute*>(&it.attribute())) picture.matrices[it.name()] = matrix->value();
+        if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute()))
+            picture.texts[it.name()] = text->value();
+        if (const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&it.attribute()))
+            picture.numbers[it.name()] = number->value();
+        if (const auto* matrix = dynamic_cast<const Imf::M44fAttribute*>(&it.attribute()))
+            picture.matrices[it.name()] = matrix->value();
     }
     return picture;
 }
@@ -186,12 +205,15 @@ std::string difference(const Picture& part, const Picture& whole, float depth_sc
             }
         }
     };
-    if (part.floats.size() != whole.floats.size() || part.integers.size() != whole.integers.size()) return "other channels";
+    if (part.floats.size() != whole.floats.size() || part.integers.size() != whole.integers.size())
+        return "other channels";
     for (const auto& [name, plane] : part.floats) compare(name, plane, whole.floats.at(name));
     for (const auto& [name, plane] : part.integers) compare(name, plane, whole.integers.at(name));
     if (differing == 0) return "";
     return fmt::format("{} of {} values differ, the first: {}", differing,
-                       static_cast<size_t>(part.width()) * static_cast<size_t>(part.height()) * (part.floats.size() + part.integers.size()), first);
+                       static_cast<size_t>(part.width()) * static_cast<size_t>(part.height()) *
+                           (part.floats.size() + part.integers.size()),
+                       first);
 }
 
 } // namespace scree::test

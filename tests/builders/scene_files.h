@@ -1,7 +1,7 @@
 #pragma once
 
-#include "ingest/meshes/triangle_mesh.h"
 #include "base/math.h"
+#include "ingest/meshes/triangle_mesh.h"
 #include "render/loop/render_job.h"
 #include "tests/builders/test_files.h"
 
@@ -36,7 +36,8 @@ struct SceneFiles {
     bool orientations = false;
     bool floor = true;
     double aperture = 0.3;
-    std::string film = R"({"size": [40, 30], "aov": ["albedo", "normal", "depth", "type", "id", "variance", "samples"]})";
+    std::string film =
+        R"({"size": [40, 30], "aov": ["albedo", "normal", "depth", "type", "id", "variance", "samples"]})";
 
     /// Writes all files; returns the scene's name.
     std::string write(const TemporaryFolder& folder) const;
@@ -61,7 +62,10 @@ struct Picture {
 
     int width() const { return data.max.x - data.min.x + 1; }
     int height() const { return data.max.y - data.min.y + 1; }
-    size_t index(int x, int y) const { return static_cast<size_t>(y - data.min.y) * static_cast<size_t>(width()) + static_cast<size_t>(x - data.min.x); }
+    size_t index(int x, int y) const
+    {
+        return static_cast<size_t>(y - data.min.y) * static_cast<size_t>(width()) + static_cast<size_t>(x - data.min.x);
+    }
     double mean(const std::string& channel) const;
     bool all_finite() const;
 };
@@ -71,8 +75,8 @@ Picture read_picture(const std::filesystem::path& path);
 /// Renders a scene file to out.exr beside it, 4 samples a pixel unless `change` says otherwise, and reads that back.
 Picture render_picture(const std::string& scene, const std::function<void(RenderJob&)>& change = {});
 
-/// How `part` (a crop, or a picture of the same size) differs from `whole`: "" when every channel has the same bits, with
-/// depths multiplied by depth_scale.
+/// How `part` (a crop, or a picture of the same size) differs from `whole`: "" when every channel has the same bits,
+/// with depths multiplied by depth_scale.
 std::string difference(const Picture& part, const Picture& whole, float depth_scale = 1);
 
 } // namespace scree::test

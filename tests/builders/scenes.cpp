@@ -29,20 +29,28 @@ void TestScene::add_proxies(const GsdfOptions& options)
     for (GrainType& type : world_.types) type.gsdf = build_gsdf({type.exemplar.get(), type.material}, options);
 }
 
-void TestScene::add_grain(const V3d& center, double radius, uint32_t type) { grains_.push_back({center, radius, type}); }
+void TestScene::add_grain(const V3d& center, double radius, uint32_t type)
+{
+    grains_.push_back({center, radius, type});
+}
 
 void TestScene::add_grains(const std::vector<PackedSphere>& spheres, uint32_t type)
 {
     for (const PackedSphere& s : spheres) add_grain(s.center, s.radius, type);
 }
 
-void TestScene::add_surface(const TriangleMesh& mesh, const Material& material) { surfaces_.emplace_back(mesh, material); }
-void TestScene::add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const Color& albedo, double g, bool instead_of_grains)
+void TestScene::add_surface(const TriangleMesh& mesh, const Material& material)
+{
+    surfaces_.emplace_back(mesh, material);
+}
+void TestScene::add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const Color& albedo, double g,
+                           bool instead_of_grains)
 {
     media_.push_back({mesh, sigma_t, albedo, g, instead_of_grains, nullptr});
 }
 
-void TestScene::add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const Color& albedo, std::shared_ptr<const PhaseTable> table)
+void TestScene::add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const Color& albedo,
+                           std::shared_ptr<const PhaseTable> table)
 {
     media_.push_back({mesh, sigma_t, albedo, 0, false, std::move(table)});
 }
@@ -98,7 +106,8 @@ void TestScene::build()
         MediumRegion region{"medium", {}, medium.mesh.triangles, nullptr, nullptr, nullptr, medium.instead_of_grains};
         for (const V3d& p : medium.mesh.positions) region.positions.emplace_back(space.point(p));
         const V3d sigma_t = medium.sigma_t * space.world_length(1);
-        region.homogeneous = medium.table ? std::make_shared<HomogeneousMedium>(sigma_t, medium.albedo, medium.table) : std::make_shared<HomogeneousMedium>(sigma_t, medium.albedo, medium.g);
+        region.homogeneous = medium.table ? std::make_shared<HomogeneousMedium>(sigma_t, medium.albedo, medium.table)
+                                          : std::make_shared<HomogeneousMedium>(sigma_t, medium.albedo, medium.g);
         world_.regions.push_back(std::move(region));
     }
     for (Light& light : lights_) {

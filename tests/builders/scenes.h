@@ -2,9 +2,9 @@
 
 #include "ingest/meshes/triangle_mesh.h"
 #include "render/gsdf/gsdf_builder.h"
+#include "render/stf/stf_form.h"
 #include "render/trace/tracer.h"
 #include "render/trace/world.h"
-#include "render/stf/stf_form.h"
 #include "tests/builders/packings.h"
 
 #include <memory>
@@ -32,9 +32,11 @@ public:
     void add_grains(const std::vector<PackedSphere>& spheres, uint32_t type);
     void add_surface(const TriangleMesh& mesh, const Material& material);
     /// sigma_t per unit of length. instead_of_grains: grains in there are not met.
-    void add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const Color& albedo, double g, bool instead_of_grains = false);
+    void add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const Color& albedo, double g,
+                    bool instead_of_grains = false);
     /// The same with a phase function of a table.
-    void add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const Color& albedo, std::shared_ptr<const PhaseTable> table);
+    void add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const Color& albedo,
+                    std::shared_ptr<const PhaseTable> table);
     void add_light(const Light& light);
     void add_constant_light(float radiance);
     /// White from everywhere as well, but as a light that is sampled.

@@ -15,7 +15,8 @@ namespace scree::test {
 
 std::string scree_program() { return SCREE_PROGRAM; }
 
-ProgramRun run_scree(const std::vector<std::string>& arguments, const std::string& signal_at, double signal_after, const std::string& program)
+ProgramRun run_scree(const std::vector<std::string>& arguments, const std::string& signal_at, double signal_after,
+                     const std::string& program)
 {
     std::vector<std::string> words{program};
     words.insert(words.end(), arguments.begin(), arguments.end());
@@ -47,8 +48,10 @@ ProgramRun run_scree(const std::vector<std::string>& arguments, const std::strin
             if (ends[i].fd < 0 || ends[i].revents == 0) continue;
             char block[4096];
             const ssize_t n = read(ends[i].fd, block, sizeof block);
-            if (n <= 0) ends[i].fd = -1;
-            else (i == 0 ? run.out : run.err).append(block, static_cast<size_t>(n));
+            if (n <= 0)
+                ends[i].fd = -1;
+            else
+                (i == 0 ? run.out : run.err).append(block, static_cast<size_t>(n));
         }
         if (!signalled && run.err.find(signal_at) != std::string::npos) {
             signalled = true;

@@ -1,13 +1,14 @@
 #include "tests/builders/slabs.h"
 
-#include "render/media/grid_medium_build.h"
 #include "base/warp.h"
+#include "render/media/grid_medium_build.h"
 
 #include <tbb/parallel_for.h>
 
 namespace scree {
 
-std::unique_ptr<TestScene> slab(double depth, const V3d& sigma_t, const Color& albedo, double g, std::optional<StfForm> shells)
+std::unique_ptr<TestScene> slab(double depth, const V3d& sigma_t, const Color& albedo, double g,
+                                std::optional<StfForm> shells)
 {
     auto scene = std::make_unique<TestScene>();
     const double wide = 3e3 * depth;
@@ -24,12 +25,14 @@ GridSlab::GridSlab(double depth, double sigma_t, float albedo, double g, double 
     const int across = 64, down = 8; // voxels; wide ones
     const double wide = 300 * depth;
     const auto grid = openvdb::FloatGrid::create(0);
-    grid->fill(openvdb::CoordBBox({-across, -across, -down}, {across, across, down}), static_cast<float>(sigma_t / unit));
+    grid->fill(openvdb::CoordBBox({-across, -across, -down}, {across, across, down}),
+               static_cast<float>(sigma_t / unit));
     MediumGrids grids{grid, nullptr, nullptr, {}, "slab"};
     grids.to_scene[0][0] = grids.to_scene[1][1] = unit * wide / across;
     grids.to_scene[2][2] = unit * depth / down;
     // Cut out of its middle, where interpolation does not meet the grid's faces.
-    const TriangleMesh mesh = box_mesh(unit * V3d(-0.5 * wide, -0.5 * wide, -0.5 * depth), unit * V3d(0.5 * wide, 0.5 * wide, 0.5 * depth));
+    const TriangleMesh mesh =
+        box_mesh(unit * V3d(-0.5 * wide, -0.5 * wide, -0.5 * depth), unit * V3d(0.5 * wide, 0.5 * wide, 0.5 * depth));
     MediumRegion region{"slab", {}, mesh.triangles, nullptr, nullptr, nullptr, false};
     GridMediumOptions options;
     options.albedo = Color(albedo);
@@ -42,7 +45,8 @@ GridSlab::GridSlab(double depth, double sigma_t, float albedo, double g, double 
     tracer = std::make_unique<Tracer>(std::make_shared<EmbreeDevice>(), world);
 }
 
-ReflectedAndPassed shine(const World& world, const Tracer& tracer, double distance, uint32_t paths, double cosine, uint64_t seed)
+ReflectedAndPassed shine(const World& world, const Tracer& tracer, double distance, uint32_t paths, double cosine,
+                         uint64_t seed)
 {
     struct Value {
         Color radiance;
@@ -72,7 +76,8 @@ ReflectedAndPassed shine(const TestScene& scene, uint32_t paths, double cosine, 
     return shine(scene.world(), scene.tracer(), 1, paths, cosine, seed);
 }
 
-Estimate from_all_around(const World& world, const Tracer& tracer, uint32_t count, double distance, const PathOptions& options, uint64_t seed)
+Estimate from_all_around(const World& world, const Tracer& tracer, uint32_t count, double distance,
+                         const PathOptions& options, uint64_t seed)
 {
     std::vector<double> values(count);
     tbb::parallel_for(uint32_t{0}, count, [&](uint32_t p) {

@@ -9,8 +9,10 @@
 
 namespace scree {
 
-/// A slab between z = 0 and z = -depth, far wider than light goes, under a white sky; shells: how light goes through them, or not at all.
-std::unique_ptr<TestScene> slab(double depth, const V3d& sigma_t, const Color& albedo, double g, std::optional<StfForm> shells = {});
+/// A slab between z = 0 and z = -depth, far wider than light goes, under a white sky; shells: how light goes through
+/// them, or not at all.
+std::unique_ptr<TestScene> slab(double depth, const V3d& sigma_t, const Color& albedo, double g,
+                                std::optional<StfForm> shells = {});
 
 /// The slab as a grid of equal voxels in its box, between z = depth / 2 and -depth / 2.
 struct GridSlab {
@@ -25,11 +27,14 @@ struct ReflectedAndPassed {
     Estimate up[3], down[3]; ///< by channel
 };
 
-/// What rays bring that come down from `distance` to (0, 0, 0), by the side they leave to. cosine: of incidence; below 0: as of diffuse light.
-ReflectedAndPassed shine(const World& world, const Tracer& tracer, double distance, uint32_t paths, double cosine, uint64_t seed);
+/// What rays bring that come down from `distance` to (0, 0, 0), by the side they leave to. cosine: of incidence; below
+/// 0: as of diffuse light.
+ReflectedAndPassed shine(const World& world, const Tracer& tracer, double distance, uint32_t paths, double cosine,
+                         uint64_t seed);
 ReflectedAndPassed shine(const TestScene& scene, uint32_t paths, double cosine, uint64_t seed);
 
 /// Mean radiance of rays from all around towards the middle of things.
-Estimate from_all_around(const World& world, const Tracer& tracer, uint32_t count, double distance, const PathOptions& options, uint64_t seed);
+Estimate from_all_around(const World& world, const Tracer& tracer, uint32_t count, double distance,
+                         const PathOptions& options, uint64_t seed);
 
 } // namespace scree

@@ -22,7 +22,8 @@ double upper_tail(double statistic, int degrees)
 
 double Estimate::standard_error() const
 {
-    return n_ > 1 ? std::sqrt(m2_ / static_cast<double>(n_ - 1) / static_cast<double>(n_)) : std::numeric_limits<double>::infinity();
+    return n_ > 1 ? std::sqrt(m2_ / static_cast<double>(n_ - 1) / static_cast<double>(n_))
+                  : std::numeric_limits<double>::infinity();
 }
 
 double Estimate::z(double truth) const
@@ -53,13 +54,16 @@ ChiSquare chi_square(const std::vector<double>& observed, const std::vector<doub
         }
         add(observed[i], expected[i]);
     }
-    if (pooled_expected >= 5) add(pooled_observed, pooled_expected);
-    else if (pooled_observed > 30) result.statistic = std::numeric_limits<double>::infinity(); // where nothing may be
+    if (pooled_expected >= 5)
+        add(pooled_observed, pooled_expected);
+    else if (pooled_observed > 30)
+        result.statistic = std::numeric_limits<double>::infinity(); // where nothing may be
     result.degrees -= 1;
     result.p_value = upper_tail(result.statistic, result.degrees);
-    result.text = fmt::format("chi2 {} of {} degrees, p {}; worst cell {}: observed {}, expected {}; pooled {} of {}", result.statistic,
-                              result.degrees, result.p_value, worst_cell, observed.empty() ? 0 : observed[worst_cell],
-                              expected.empty() ? 0 : expected[worst_cell], pooled_observed, pooled_expected);
+    result.text = fmt::format("chi2 {} of {} degrees, p {}; worst cell {}: observed {}, expected {}; pooled {} of {}",
+                              result.statistic, result.degrees, result.p_value, worst_cell,
+                              observed.empty() ? 0 : observed[worst_cell], expected.empty() ? 0 : expected[worst_cell],
+                              pooled_observed, pooled_expected);
     return result;
 }
 
@@ -86,7 +90,8 @@ ChiSquare chi_square_two(const std::vector<double>& first, const std::vector<dou
     }
     if (pool_first >= 25) add(pool_first, pool_second, pool_first + pool_variance);
     result.p_value = upper_tail(result.statistic, result.degrees);
-    result.text = fmt::format("chi2 {} of {} degrees, p {}; pooled {} against {}", result.statistic, result.degrees, result.p_value, pool_first, pool_second);
+    result.text = fmt::format("chi2 {} of {} degrees, p {}; pooled {} against {}", result.statistic, result.degrees,
+                              result.p_value, pool_first, pool_second);
     return result;
 }
 

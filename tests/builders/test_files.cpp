@@ -78,7 +78,8 @@ std::string join_lines(const std::vector<std::string>& lines)
 
 std::string replace_all(std::string text, const std::string& what, const std::string& with)
 {
-    for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size())) text.replace(at, what.size(), with);
+    for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
+        text.replace(at, what.size(), with);
     return text;
 }
 

@@ -25,7 +25,8 @@ TileBed::TileBed(std::shared_ptr<const PackingTile> tile, double mean_radius, Gr
 {
     TriangleMesh box = cube();
     for (V3d& p : box.positions) p *= half;
-    const auto fill = std::make_shared<const ProceduralFill>(std::make_shared<const Domain>(box, "cube"), std::move(tile), FillOptions{mean_radius, 0});
+    const auto fill = std::make_shared<const ProceduralFill>(std::make_shared<const Domain>(box, "cube"),
+                                                             std::move(tile), FillOptions{mean_radius, 0});
     world_.types.push_back(std::move(type));
     world_.fill = std::make_shared<GrainFill>(fill, std::make_shared<SingleMixture>(0), world_.space);
     world_.domain = fill->domain().bounds();

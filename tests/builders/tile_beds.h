@@ -10,8 +10,8 @@ namespace scree {
 /// A tile of spheres of one size, some of them, made once and kept; any fraction that tile_generator can make.
 std::shared_ptr<const PackingTile> sphere_tile(double fraction, uint64_t spheres);
 
-/// A cube from -half to half in all directions, filled from a tile with grains of one type, and the tracer over it; lengths are render
-/// units. However large it is, it costs no more.
+/// A cube from -half to half in all directions, filled from a tile with grains of one type, and the tracer over it;
+/// lengths are render units. However large it is, it costs no more.
 class TileBed {
 public:
     TileBed(std::shared_ptr<const PackingTile> tile, double mean_radius, GrainType type, double half);

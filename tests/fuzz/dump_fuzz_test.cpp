@@ -19,22 +19,28 @@ std::string valid_dump(std::mt19937_64& random)
     const auto below = [&](int limit) { return std::uniform_int_distribution<int>(0, limit - 1)(random); };
     const auto real = [&] { return std::uniform_real_distribution<double>(0, 1)(random); };
     std::string text = below(2) ? "ITEM: UNITS\nlj\n" : "";
-    const std::vector<std::string> boxes{"BOX BOUNDS pp ff pp\n0 1\n0 1\n0 1\n", "BOX BOUNDS\n-1 1\n-1 1\n-1 1\n", "BOX BOUNDS xy xz yz pp pp pp\n0 2 0.5\n0 2 0\n0 1 0.1\n",
+    const std::vector<std::string> boxes{"BOX BOUNDS pp ff pp\n0 1\n0 1\n0 1\n", "BOX BOUNDS\n-1 1\n-1 1\n-1 1\n",
+                                         "BOX BOUNDS xy xz yz pp pp pp\n0 2 0.5\n0 2 0\n0 1 0.1\n",
                                          "BOX BOUNDS abc origin pp pp pp\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"};
-    const std::vector<std::string> columns{"id type x y z radius", "xs ys zs diameter id", "id element xu ysu z radius", "x y z radius quatw quati quatj quatk",
+    const std::vector<std::string> columns{"id type x y z radius", "xs ys zs diameter id", "id element xu ysu z radius",
+                                           "x y z radius quatw quati quatj quatk",
                                            "id type x y z c_q[1] c_q[2] c_q[3] c_q[4] f_radius"};
     const std::string names = columns[size_t(below(int(columns.size())))];
     const int frames = 1 + below(3);
     for (int frame = 0; frame < frames; ++frame) {
         const int count = below(6);
         if (below(2)) text += fmt::format("ITEM: TIME\n{}\n", real());
-        text += fmt::format("ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: {}ITEM: ATOMS {}\n", 100 * frame, count, boxes[size_t(below(4))], names);
+        text += fmt::format("ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: {}ITEM: ATOMS {}\n", 100 * frame,
+                            count, boxes[size_t(below(4))], names);
         for (int i = 0; i < count; ++i) {
             std::string row;
             for (size_t start = 0; start <= names.size();) {
                 const size_t end = std::min(names.find(' ', start), names.size());
                 const std::string name = names.substr(start, end - start);
-                row += name == "id" ? std::to_string(i + 1) : name == "type" ? "1" : name == "element" ? (below(2) ? "Si" : "O") : fmt::format("{:.6g}", real());
+                row += name == "id"        ? std::to_string(i + 1)
+                       : name == "type"    ? "1"
+                       : name == "element" ? (below(2) ? "Si" : "O")
+                                           : fmt::format("{:.6g}", real());
                 row += ' ';
                 start = end + 1;
             }
@@ -46,9 +52,32 @@ std::string valid_dump(std::mt19937_64& random)
 
 void mutate(std::string& bytes, std::mt19937_64& random)
 {
-    static const std::vector<std::string> snippets{"ITEM:", "ITEM: ATOMS", "ITEM: TIMESTEP\n", "\n", "\r\n", " ", "-", "nan", "inf", "1e999", "9223372036854775807",
-                                                   "18446744073709551616", "-1", "0", std::string(1, '\0'), "\xff", "xs", " radius", "\n\n", "4294967296", "e", ".", "1e-320"};
-    const auto below = [&](size_t limit) { return std::uniform_int_distribution<size_t>(0, limit == 0 ? 0 : limit - 1)(random); };
+    static const std::vector<std::string> snippets{"ITEM:",
+                                                   "ITEM: ATOMS",
+                                                   "ITEM: TIMESTEP\n",
+                                                   "\n",
+                                                   "\r\n",
+                                                   " ",
+                                                   "-",
+                                                   "nan",
+                                                   "inf",
+                                                   "1e999",
+                                                   "9223372036854775807",
+                                                   "18446744073709551616",
+                                                   "-1",
+                                                   "0",
+                                                   std::string(1, '\0'),
+                                                   "\xff",
+                                                   "xs",
+                                                   " radius",
+                                                   "\n\n",
+                                                   "4294967296",
+                                                   "e",
+                                                   ".",
+                                                   "1e-320"};
+    const auto below = [&](size_t limit) {
+        return std::uniform_int_distribution<size_t>(0, limit == 0 ? 0 : limit - 1)(random);
+    };
     const size_t at = below(bytes.size() + 1);
     const size_t length = std::min(bytes.size() - at, below(20));
     switch (below(6)) {

@@ -11,10 +11,11 @@ using test::TemporaryFolder;
 using testing::HasSubstr;
 
 /// A frame of the given box lines (under their own ITEM line), columns and rows.
-std::string dump(const std::string& box, const std::string& columns, const std::vector<std::string>& rows, const std::string& before = "", int step = 100)
+std::string dump(const std::string& box, const std::string& columns, const std::vector<std::string>& rows,
+                 const std::string& before = "", int step = 100)
 {
-    return fmt::format("{}ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\n{}ITEM: ATOMS {}\n{}", before, step, rows.size(), box, columns,
-                       test::join_lines(rows));
+    return fmt::format("{}ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\n{}ITEM: ATOMS {}\n{}", before, step,
+                       rows.size(), box, columns, test::join_lines(rows));
 }
 
 const std::string cube = "ITEM: BOX BOUNDS pp ff fs\n0 10\n-5 5\n2 4\n";
@@ -123,8 +124,12 @@ TEST_F(DumpReading, TiltedBoxIsRecoveredFromItsBoundingBox)
 TEST_F(DumpReading, MixedCoordinatesInATiltedBox)
 {
     // The same place written in all ways: fractions (0.5, 0.25, 0.5) are (5.75, 2.5, 2.5).
-    for (const auto& [columns, row] : {std::pair{"x ys zs", "5.75 0.25 0.5"}, {"xs y zs", "0.5 2.5 0.5"}, {"xs ys z", "0.5 0.25 2.5"},
-                                       {"xs yu zu", "0.5 2.5 2.5"}, {"xu ysu z", "5.75 0.25 2.5"}, {"x y zsu", "5.75 2.5 0.5"}}) {
+    for (const auto& [columns, row] : {std::pair{"x ys zs", "5.75 0.25 0.5"},
+                                       {"xs y zs", "0.5 2.5 0.5"},
+                                       {"xs ys z", "0.5 0.25 2.5"},
+                                       {"xs yu zu", "0.5 2.5 2.5"},
+                                       {"xu ysu z", "5.75 0.25 2.5"},
+                                       {"x y zsu", "5.75 2.5 0.5"}}) {
         SCOPED_TRACE(columns);
         expect_near(read_unit(dump(tilted, columns, {row})).position[0], {5.75, 2.5, 2.5});
     }
@@ -146,9 +151,18 @@ TEST_F(DumpReading, GeneralTriclinicBox)
 
 TEST_F(DumpReading, RadiusAndDiameterUnderTheirNames)
 {
-    for (const auto& [column, value] : {std::pair{"radius", "0.5"}, {"Radius", "0.5"}, {"RADIUS", "+0.5"}, {"diameter", "1"}, {"Diameter", "1e0"},
-                                        {"c_radius", "0.5"}, {"f_radius", "5e-1"}, {"v_radius", "0.5"}, {"d_radius", "0.5"}, {"v_diameter", "1.0"},
-                                        {"c_diameter[1]", "1"}, {"v_rad", ".5"}}) {
+    for (const auto& [column, value] : {std::pair{"radius", "0.5"},
+                                        {"Radius", "0.5"},
+                                        {"RADIUS", "+0.5"},
+                                        {"diameter", "1"},
+                                        {"Diameter", "1e0"},
+                                        {"c_radius", "0.5"},
+                                        {"f_radius", "5e-1"},
+                                        {"v_radius", "0.5"},
+                                        {"d_radius", "0.5"},
+                                        {"v_diameter", "1.0"},
+                                        {"c_diameter[1]", "1"},
+                                        {"v_rad", ".5"}}) {
         SCOPED_TRACE(column);
         const ParticleFrame frame = read(dump(cube, std::string("x y z ") + column, {std::string("0 0 0 ") + value}));
         EXPECT_EQ(frame.radius[0], 0.5f);
@@ -187,8 +201,9 @@ TEST_F(DumpReading, OptionsDoNotReplaceAColumn)
 
 TEST_F(DumpReading, Orientations)
 {
-    for (const std::string columns : {"quatw quati quatj quatk", "c_quat[1] c_quat[2] c_quat[3] c_quat[4]", "c_q[1] c_q[2] c_q[3] c_q[4]",
-                                      "c_quatw c_quati c_quatj c_quatk", "C_MyQuat[1] c_myquat[2] c_myquat[3] c_myquat[4]"}) {
+    for (const std::string columns :
+         {"quatw quati quatj quatk", "c_quat[1] c_quat[2] c_quat[3] c_quat[4]", "c_q[1] c_q[2] c_q[3] c_q[4]",
+          "c_quatw c_quati c_quatj c_quatk", "C_MyQuat[1] c_myquat[2] c_myquat[3] c_myquat[4]"}) {
         SCOPED_TRACE(columns);
         const ParticleFrame frame = read(dump(cube, "x y z radius " + columns, {"0 0 0 1 2 0 0 2", "0 0 0 1 0 0 0 0"}));
         ASSERT_EQ(frame.orientation.size(), 2u);
@@ -228,15 +243,17 @@ TEST_F(DumpReading, NamesOfTypesAreNumberedOverAllFrames)
 
 TEST_F(DumpReading, ElementsThatLookLikeAnItemStayAtoms)
 {
-    EXPECT_EQ(read(dump(cube, "element x y z radius", {"I 0 0 0 1", "ITEM 0 0 0 1", "In 0 0 0 1"})).type, (std::vector<int32_t>{1, 2, 3}));
+    EXPECT_EQ(read(dump(cube, "element x y z radius", {"I 0 0 0 1", "ITEM 0 0 0 1", "In 0 0 0 1"})).type,
+              (std::vector<int32_t>{1, 2, 3}));
 }
 
 TEST_F(DumpReading, LineEndsBlanksAndABom)
 {
     const std::string text = dump(cube, "id type x y z radius", {"2 1 1 2 3 0.5", "1 2 4 5 6 0.25"});
     const ParticleFrame plain = read(text);
-    for (const std::string& variant : {test::replace_all(text, "\n", "\r\n"), test::replace_all(text, "\n", " \t\n"), "\xef\xbb\xbf" + text,
-                                       "\n\n" + text + "\n \n", test::replace_all(text, " ", "   "), test::replace_all(text, "\n2 1", "\n  2\t1")}) {
+    for (const std::string& variant :
+         {test::replace_all(text, "\n", "\r\n"), test::replace_all(text, "\n", " \t\n"), "\xef\xbb\xbf" + text,
+          "\n\n" + text + "\n \n", test::replace_all(text, " ", "   "), test::replace_all(text, "\n2 1", "\n  2\t1")}) {
         const ParticleFrame frame = read(variant);
         EXPECT_EQ(frame.position, plain.position);
         EXPECT_EQ(frame.radius, plain.radius);
@@ -249,8 +266,9 @@ TEST_F(DumpReading, LineEndsBlanksAndABom)
 TEST_F(DumpReading, EmptyFrames)
 {
     const std::string columns = "id x y z radius";
-    const DumpSeries series = DumpSeries::open(
-        folder_.write("a.dump", dump(cube, columns, {}, "", 1) + dump(cube, columns, {"1 0 0 0 1"}, "", 2) + dump(cube, columns, {}, "", 3)));
+    const DumpSeries series = DumpSeries::open(folder_.write("a.dump", dump(cube, columns, {}, "", 1) +
+                                                                           dump(cube, columns, {"1 0 0 0 1"}, "", 2) +
+                                                                           dump(cube, columns, {}, "", 3)));
     ASSERT_EQ(series.frame_count(), 3u);
     EXPECT_EQ(series.read(0).size(), 0u);
     EXPECT_EQ(series.read(1).size(), 1u);
@@ -266,7 +284,8 @@ TEST_F(DumpReading, FrameWithoutABox)
 
 TEST_F(DumpReading, NumbersAsOtherProgramsWriteThem)
 {
-    const ParticleFrame frame = read(dump(cube, "id type x y z radius", {"9007199254740993 1 1e-3 -.5 +2.5E+0 1", "2.0 3.000e+00 1 1 1 0"}));
+    const ParticleFrame frame =
+        read(dump(cube, "id type x y z radius", {"9007199254740993 1 1e-3 -.5 +2.5E+0 1", "2.0 3.000e+00 1 1 1 0"}));
     EXPECT_EQ(frame.id, (std::vector<uint64_t>{2, 9007199254740993u}));
     EXPECT_EQ(frame.type[0], 3);
     EXPECT_EQ(frame.radius[0], 0.0f);
@@ -275,7 +294,8 @@ TEST_F(DumpReading, NumbersAsOtherProgramsWriteThem)
 
 TEST_F(DumpReading, ScatteredIdsAreSorted)
 {
-    const ParticleFrame frame = read(dump(cube, "id x y z radius", {"1000000000000 1 0 0 1", "5 2 0 0 1", "70 3 0 0 1", "0 4 0 0 1"}));
+    const ParticleFrame frame =
+        read(dump(cube, "id x y z radius", {"1000000000000 1 0 0 1", "5 2 0 0 1", "70 3 0 0 1", "0 4 0 0 1"}));
     EXPECT_EQ(frame.id, (std::vector<uint64_t>{0, 5, 70, 1000000000000u}));
     EXPECT_EQ(frame.position[3].x, 1);
     EXPECT_EQ(frame.position[0].x, 4);

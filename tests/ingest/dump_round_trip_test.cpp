@@ -31,7 +31,9 @@ ParticleFrame random_frame(std::mt19937_64& random, const Layout& layout)
         frame.radius.push_back(static_cast<float>(scale * real(0, 1)));
         frame.type.push_back(static_cast<int32_t>(random() % 5));
         if (layout.orientations)
-            frame.orientation.push_back(Imath::Quatf(float(real(-1, 1)), float(real(-1, 1)), float(real(-1, 1)), float(real(0.1, 1))).normalized());
+            frame.orientation.push_back(
+                Imath::Quatf(float(real(-1, 1)), float(real(-1, 1)), float(real(-1, 1)), float(real(0.1, 1)))
+                    .normalized());
     }
     frame.step = static_cast<int64_t>(random() >> 2);
     frame.time = real(0, 1e6);
@@ -49,7 +51,8 @@ std::string text_of(const ParticleFrame& frame, const Layout& layout, std::mt199
     for (size_t i = 0; i < frame.size(); ++i) {
         const Imath::V3d& p = frame.position[i];
         // fmt writes the shortest text that reads back as the same number.
-        std::string row = fmt::format("{} {} {} {} {}", p.x, p.y, p.z, frame.type[i], layout.diameter ? 2 * frame.radius[i] : frame.radius[i]);
+        std::string row = fmt::format("{} {} {} {} {}", p.x, p.y, p.z, frame.type[i],
+                                      layout.diameter ? 2 * frame.radius[i] : frame.radius[i]);
         if (layout.ids) row += fmt::format(" {}", frame.id[i]);
         if (layout.orientations) {
             const Imath::Quatf& q = frame.orientation[i];
@@ -60,9 +63,11 @@ std::string text_of(const ParticleFrame& frame, const Layout& layout, std::mt199
     if (layout.shuffle) std::ranges::shuffle(rows, random);
     const SimulationBox& box = *frame.box;
     const Imath::V3d hi = box.lo + box.edges[0] + box.edges[1] + box.edges[2];
-    std::string text = fmt::format("ITEM: TIME\n{}\nITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff ff ff\n{} {}\n{} {}\n{} {}\nITEM: ATOMS x y z type {}{}{}\n",
-                                   *frame.time, frame.step, frame.size(), box.lo.x, hi.x, box.lo.y, hi.y, box.lo.z, hi.z, layout.diameter ? "diameter" : "radius",
-                                   layout.ids ? " id" : "", layout.orientations ? " quatw quati quatj quatk" : "");
+    std::string text = fmt::format("ITEM: TIME\n{}\nITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff "
+                                   "ff ff\n{} {}\n{} {}\n{} {}\nITEM: ATOMS x y z type {}{}{}\n",
+                                   *frame.time, frame.step, frame.size(), box.lo.x, hi.x, box.lo.y, hi.y, box.lo.z,
+                                   hi.z, layout.diameter ? "diameter" : "radius", layout.ids ? " id" : "",
+                                   layout.orientations ? " quatw quati quatj quatk" : "");
     text += test::join_lines(rows);
     return layout.crlf ? test::replace_all(text, "\n", "\r\n") : text;
 }
@@ -77,7 +82,8 @@ void expect_same(const ParticleFrame& found, const ParticleFrame& written)
     EXPECT_EQ(found.step, written.step);
     EXPECT_EQ(found.time, written.time);
     ASSERT_EQ(found.orientation.size(), written.orientation.size());
-    for (size_t i = 0; i < found.orientation.size(); ++i) EXPECT_LT((found.orientation[i] - written.orientation[i]).length(), 1e-6f);
+    for (size_t i = 0; i < found.orientation.size(); ++i)
+        EXPECT_LT((found.orientation[i] - written.orientation[i]).length(), 1e-6f);
     EXPECT_EQ(found.box->lo, written.box->lo);
 }
 

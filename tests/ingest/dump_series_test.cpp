@@ -15,7 +15,8 @@ using testing::HasSubstr;
 /// A frame of `count` spheres; sphere i of step s stands at (s, i, 0).
 std::string frame_text(int64_t step, int count)
 {
-    std::string text = fmt::format("ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS id x y z radius\n",
+    std::string text = fmt::format("ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 "
+                                   "1\n0 1\nITEM: ATOMS id x y z radius\n",
                                    step, count);
     for (int i = count; i > 0; --i) text += fmt::format("{} {} {} 0 0.5\n", i, step, i);
     return text;
@@ -52,7 +53,9 @@ class DumpSeriesPacked : public testing::TestWithParam<Packing> {
 protected:
     TemporaryFolder folder_;
 };
-INSTANTIATE_TEST_SUITE_P(Packings, DumpSeriesPacked, testing::Values(Packing{"plain", as_it_is}, Packing{"gzip", test::gzip}, Packing{"zstd", test::zstd}),
+INSTANTIATE_TEST_SUITE_P(Packings, DumpSeriesPacked,
+                         testing::Values(Packing{"plain", as_it_is}, Packing{"gzip", test::gzip},
+                                         Packing{"zstd", test::zstd}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST_P(DumpSeriesPacked, ManyFramesInAnyOrder)
@@ -68,7 +71,8 @@ TEST_P(DumpSeriesPacked, ManyFramesInAnyOrder)
 
 TEST_P(DumpSeriesPacked, FilePerFrameByGlobAndByPrintf)
 {
-    for (const int step : {900, 1000, 10, 0}) folder_.write(fmt::format("pour.{:04d}.dump", step), GetParam().pack(frame_text(step, 4)));
+    for (const int step : {900, 1000, 10, 0})
+        folder_.write(fmt::format("pour.{:04d}.dump", step), GetParam().pack(frame_text(step, 4)));
     folder_.write("pour.last.dump", "not of this series");
     folder_.write("other.dump", "not a dump");
     for (const char* pattern : {"pour.[01]*.dump", "pour.????.dump", "pour.%04d.dump", "pour.%d.dump"}) {
@@ -76,7 +80,8 @@ TEST_P(DumpSeriesPacked, FilePerFrameByGlobAndByPrintf)
         if (std::string(pattern) == "pour.????.dump") std::filesystem::remove(folder_.path("pour.last.dump"));
         const DumpSeries series = DumpSeries::open(folder_.path(pattern).string());
         const bool only_unpadded = std::string(pattern) == "pour.%d.dump";
-        EXPECT_EQ(steps_of(series), only_unpadded ? (std::vector<int64_t>{1000}) : (std::vector<int64_t>{0, 10, 900, 1000}));
+        EXPECT_EQ(steps_of(series),
+                  only_unpadded ? (std::vector<int64_t>{1000}) : (std::vector<int64_t>{0, 10, 900, 1000}));
         expect_frame(series, 0, only_unpadded ? 1000 : 0, 4);
         EXPECT_EQ(series.file(0).filename(), only_unpadded ? "pour.1000.dump" : "pour.0000.dump");
     }
@@ -85,7 +90,8 @@ TEST_P(DumpSeriesPacked, FilePerFrameByGlobAndByPrintf)
 TEST_P(DumpSeriesPacked, LargeFrameAcrossManyBlocks)
 {
     const int count = 150000; // several of the reader's buffers
-    const DumpSeries series = DumpSeries::open(folder_.write("a.dump", GetParam().pack(frame_text(1, count) + frame_text(2, 5) + frame_text(3, count))));
+    const DumpSeries series = DumpSeries::open(
+        folder_.write("a.dump", GetParam().pack(frame_text(1, count) + frame_text(2, 5) + frame_text(3, count))));
     for (const size_t i : {0u, 2u, 1u}) {
         const ParticleFrame frame = series.read(i);
         ASSERT_EQ(frame.size(), i == 1 ? 5u : size_t(count));
@@ -100,11 +106,13 @@ TEST_P(DumpSeriesPacked, CutInTheLastFrameKeepsTheFramesBefore)
     // Cut anywhere in the second frame but at its very end, or within its last number.
     for (size_t keep = 1; keep + 4 < second.size(); keep += 3) {
         SCOPED_TRACE(second.substr(0, keep));
-        const DumpSeries series = DumpSeries::open(folder_.write("a.dump", GetParam().pack(first + second.substr(0, keep))));
+        const DumpSeries series =
+            DumpSeries::open(folder_.write("a.dump", GetParam().pack(first + second.substr(0, keep))));
         ASSERT_EQ(series.frame_count(), 1u);
         expect_frame(series, 0, 0, 3);
         if (second.substr(0, keep).find_first_not_of("\n") == std::string::npos) continue;
-        EXPECT_THAT(series.warnings(), testing::ElementsAre(testing::AllOf(HasSubstr("a.dump:"), HasSubstr("left out"))));
+        EXPECT_THAT(series.warnings(),
+                    testing::ElementsAre(testing::AllOf(HasSubstr("a.dump:"), HasSubstr("left out"))));
     }
 }
 
@@ -113,7 +121,8 @@ TEST_P(DumpSeriesPacked, CutInTheOnlyFrameIsAnError)
     const std::string text = frame_text(0, 3);
     for (size_t keep = 0; keep + 4 < text.size(); ++keep) {
         SCOPED_TRACE(text.substr(0, keep));
-        EXPECT_TRUE(test::input_error_of([&] { DumpSeries::open(folder_.write("a.dump", GetParam().pack(text.substr(0, keep)))); }));
+        EXPECT_TRUE(test::input_error_of(
+            [&] { DumpSeries::open(folder_.write("a.dump", GetParam().pack(text.substr(0, keep)))); }));
     }
 }
 
@@ -138,7 +147,9 @@ TEST(DumpSeries, GzipOfSeveralMembersAndPadding)
     const std::string members = test::gzip(text.substr(0, 1000)) + test::gzip("") + test::gzip(text.substr(1000));
     EXPECT_EQ(DumpSeries::open(folder.write("a.gz", members)).frame_count(), 2u);
     EXPECT_EQ(DumpSeries::open(folder.write("b.gz", members + std::string(512, '\0'))).frame_count(), 2u);
-    EXPECT_EQ(DumpSeries::open(folder.write("c.zst", test::zstd(text.substr(0, 1000)) + test::zstd(text.substr(1000)))).frame_count(), 2u);
+    EXPECT_EQ(DumpSeries::open(folder.write("c.zst", test::zstd(text.substr(0, 1000)) + test::zstd(text.substr(1000))))
+                  .frame_count(),
+              2u);
 }
 
 TEST(DumpSeries, UnfinishedFileOfASeriesIsLeftOut)
@@ -203,7 +214,8 @@ TEST(DumpSeries, ReadsFromSeveralThreads)
         std::vector<size_t> good(4, 0);
         for (size_t t = 0; t < 4; ++t)
             threads.emplace_back([&, t] {
-                for (size_t i = 0; i < 12; ++i) good[t] += series.read((i * (t + 1)) % 12).step == int64_t((i * (t + 1)) % 12);
+                for (size_t i = 0; i < 12; ++i)
+                    good[t] += series.read((i * (t + 1)) % 12).step == int64_t((i * (t + 1)) % 12);
             });
         for (std::thread& thread : threads) thread.join();
         EXPECT_EQ(good, (std::vector<size_t>{12, 12, 12, 12}));

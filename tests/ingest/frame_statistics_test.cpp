@@ -23,7 +23,8 @@ ParticleFrame frame_of(std::vector<Imath::V3d> positions, std::vector<float> rad
     return frame;
 }
 
-SimulationBox box_of(const Imath::V3d& lo, const Imath::V3d& a, const Imath::V3d& b, const Imath::V3d& c, std::array<bool, 3> periodic)
+SimulationBox box_of(const Imath::V3d& lo, const Imath::V3d& a, const Imath::V3d& b, const Imath::V3d& c,
+                     std::array<bool, 3> periodic)
 {
     SimulationBox box;
     box.lo = lo;
@@ -52,7 +53,9 @@ BruteForce brute_force(const ParticleFrame& frame)
                     for (int w = -range(2); w <= range(2); ++w) {
                         if (i == j && u == 0 && v == 0 && w == 0) continue;
                         Imath::V3d d = frame.position[i] - frame.position[j];
-                        if (frame.box) d += double(u) * frame.box->edges[0] + double(v) * frame.box->edges[1] + double(w) * frame.box->edges[2];
+                        if (frame.box)
+                            d += double(u) * frame.box->edges[0] + double(v) * frame.box->edges[1] +
+                                 double(w) * frame.box->edges[2];
                         overlap = std::max(overlap, (ri + rj - d.length()) / std::min(ri, rj));
                     }
             if (overlap > 0) ++result.pairs;
@@ -97,7 +100,8 @@ TEST(FrameStatistics, EmptyFrameAndNoBox)
 
 TEST(FrameStatistics, OneOverlapIsMeasuredInSmallerRadii)
 {
-    const FrameStatistics statistics = measure_frame(frame_of({{0, 0, 0}, {10, 0, 0}, {11.75f, 0, 0}, {-3, 0, 0}}, {1, 1.5f, 0.5f, 2}));
+    const FrameStatistics statistics =
+        measure_frame(frame_of({{0, 0, 0}, {10, 0, 0}, {11.75f, 0, 0}, {-3, 0, 0}}, {1, 1.5f, 0.5f, 2}));
     // 1 and 3 just touch: no overlap. 1.5 + 0.5 - 1.75 = 0.25 of 0.5.
     EXPECT_EQ(statistics.overlapping_pairs, 1u);
     EXPECT_DOUBLE_EQ(statistics.max_overlap, 0.5);
@@ -129,7 +133,8 @@ TEST_P(RandomFrames, SizesOverSixDecades)
     ParticleFrame frame = make(600, 10, 1e-6, 1);
     for (size_t i = 0; i < 20; ++i) frame.radius[i * 7] = 0;
     // Small ones near large ones, or there would be hardly a pair.
-    for (size_t i = 0; i < 200; ++i) frame.position[i] = frame.position[i + 200] + Imath::V3d(frame.radius[i + 200] + 0.5 * frame.radius[i], 0, 0);
+    for (size_t i = 0; i < 200; ++i)
+        frame.position[i] = frame.position[i + 200] + Imath::V3d(frame.radius[i + 200] + 0.5 * frame.radius[i], 0, 0);
     expect_as_brute_force(frame);
 }
 
@@ -188,7 +193,8 @@ TEST(FrameStatistics, CoincidentAndSizelessGrains)
 
 TEST(FrameStatistics, AHundredThousandGrainsInOnePlaceEnd)
 {
-    const FrameStatistics statistics = measure_frame(frame_of(std::vector<Imath::V3d>(100000, {1, 2, 3}), std::vector<float>(100000, 1.0f)));
+    const FrameStatistics statistics =
+        measure_frame(frame_of(std::vector<Imath::V3d>(100000, {1, 2, 3}), std::vector<float>(100000, 1.0f)));
     EXPECT_FALSE(statistics.overlaps_complete);
     EXPECT_EQ(statistics.duplicates, 99999u);
     EXPECT_DOUBLE_EQ(statistics.max_overlap, 2);

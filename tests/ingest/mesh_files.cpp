@@ -18,7 +18,8 @@ std::string vertex_lines(const char* keyword)
 
 std::string box_obj(const std::function<std::string(uint32_t)>& corner)
 {
-    std::string text = "# a box\nmtllib box.mtl\no box\n" + vertex_lines("v ") + "vt 0 0\nvn 0 0 1\nusemtl stone\ns off\ng sides\n";
+    std::string text =
+        "# a box\nmtllib box.mtl\no box\n" + vertex_lines("v ") + "vt 0 0\nvn 0 0 1\nusemtl stone\ns off\ng sides\n";
     for (const auto& face : box_faces) {
         text += "f";
         for (const uint32_t vertex : face) text += fmt::format(" {}", corner(vertex));
@@ -51,9 +52,10 @@ std::string box_off_binary()
 
 std::string box_ply_header(const char* format, const char* index_type)
 {
-    return fmt::format("ply\nformat {} 1.0\ncomment a box\nelement vertex 8\nproperty double x\nproperty double y\nproperty double z\n"
-                       "property uchar red\nelement face 6\nproperty list uchar {} vertex_indices\nend_header\n",
-                       format, index_type);
+    return fmt::format(
+        "ply\nformat {} 1.0\ncomment a box\nelement vertex 8\nproperty double x\nproperty double y\nproperty double z\n"
+        "property uchar red\nelement face 6\nproperty list uchar {} vertex_indices\nend_header\n",
+        format, index_type);
 }
 
 std::string box_ply()

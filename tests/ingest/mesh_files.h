@@ -23,8 +23,9 @@ class MeshFiles : public testing::Test {
 protected:
     void SetUp() override
     {
-        folder_ = std::filesystem::temp_directory_path() /
-                  fmt::format("scree_mesh_{}_{}", getpid(), testing::UnitTest::GetInstance()->current_test_info()->name());
+        folder_ =
+            std::filesystem::temp_directory_path() /
+            fmt::format("scree_mesh_{}_{}", getpid(), testing::UnitTest::GetInstance()->current_test_info()->name());
         std::filesystem::create_directories(folder_);
     }
     void TearDown() override { std::filesystem::remove_all(folder_); }
@@ -34,7 +35,10 @@ protected:
         std::ofstream(folder_ / name, std::ios::binary) << content;
         return folder_ / name;
     }
-    TriangleMesh read(const std::string& name, const std::string& content) const { return read_mesh(write(name, content)); }
+    TriangleMesh read(const std::string& name, const std::string& content) const
+    {
+        return read_mesh(write(name, content));
+    }
 
     /// What the error says after the folder; fails the test if there is none.
     std::string error_of(const std::filesystem::path& path) const
@@ -48,7 +52,10 @@ protected:
         ADD_FAILURE() << path << " was read";
         return "";
     }
-    std::string error_of(const std::string& name, const std::string& content) const { return error_of(write(name, content)); }
+    std::string error_of(const std::string& name, const std::string& content) const
+    {
+        return error_of(write(name, content));
+    }
 
     const std::filesystem::path& folder() const { return folder_; }
 
@@ -58,9 +65,9 @@ private:
 
 /// A box of 2 x 3 x 4 about a far point, as six quadrilaterals looking outward.
 inline const std::vector<V3d> box_corners = {{10, 20, 30}, {12, 20, 30}, {12, 23, 30}, {10, 23, 30},
-                                      {10, 20, 34}, {12, 20, 34}, {12, 23, 34}, {10, 23, 34}};
+                                             {10, 20, 34}, {12, 20, 34}, {12, 23, 34}, {10, 23, 34}};
 inline const std::vector<std::array<uint32_t, 4>> box_faces = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                                        {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+                                                               {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
 // It in every format.
 
@@ -85,7 +92,8 @@ std::string bytes(T value, std::endian order)
 template <typename Index>
 std::string box_ply_binary(std::endian order, const char* index_type)
 {
-    std::string content = box_ply_header(order == std::endian::big ? "binary_big_endian" : "binary_little_endian", index_type);
+    std::string content =
+        box_ply_header(order == std::endian::big ? "binary_big_endian" : "binary_little_endian", index_type);
     for (const V3d& p : box_corners) {
         for (int axis = 0; axis < 3; ++axis) content += bytes(p[axis], order);
         content += '\x7f';

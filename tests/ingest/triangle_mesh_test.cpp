@@ -83,16 +83,18 @@ TEST_F(MeshFiles, reads_a_box_from_every_format)
 
 TEST_F(MeshFiles, keeps_every_digit_of_a_double)
 {
-    const TriangleMesh mesh = read("a.obj", "v 0.1234567890123456 1e-300 -9007199254740993e3\nv 1 0 0\nv 0 +1. .5\nf 1 2 3\n");
+    const TriangleMesh mesh =
+        read("a.obj", "v 0.1234567890123456 1e-300 -9007199254740993e3\nv 1 0 0\nv 0 +1. .5\nf 1 2 3\n");
     EXPECT_EQ(mesh.positions[0], V3d(0.1234567890123456, 1e-300, -9007199254740993e3));
     EXPECT_EQ(mesh.positions[2], V3d(0, 1, 0.5));
 }
 
 TEST_F(MeshFiles, reads_triangle_strips)
 {
-    const TriangleMesh mesh = read("strip.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
-                                                "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
-                                                "0 0 0\n1 0 0\n0 1 0\n1 1 0\n8 0 1 2 3 -1 2 1 3\n");
+    const TriangleMesh mesh = read(
+        "strip.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                     "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+                     "0 0 0\n1 0 0\n0 1 0\n1 1 0\n8 0 1 2 3 -1 2 1 3\n");
     ASSERT_EQ(mesh.triangles.size(), 3u);
     for (const auto& [a, b, c] : mesh.triangles) {
         EXPECT_GT((mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]).z, 0);
@@ -102,9 +104,10 @@ TEST_F(MeshFiles, reads_triangle_strips)
 TEST_F(MeshFiles, triangulates_concave_polygons_inside_their_outline)
 {
     // An arrow head, an L and a comb; along each axis and looking either way.
-    const std::vector<std::vector<Imath::V2d>> outlines = {{{0, 0}, {4, -3}, {0, 5}, {-4, -3}},
-                                                           {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}},
-                                                           {{0, 0}, {7, 0}, {7, 3}, {6, 3}, {6, 1}, {4, 1}, {4, 3}, {3, 3}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}};
+    const std::vector<std::vector<Imath::V2d>> outlines = {
+        {{0, 0}, {4, -3}, {0, 5}, {-4, -3}},
+        {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}},
+        {{0, 0}, {7, 0}, {7, 3}, {6, 3}, {6, 1}, {4, 1}, {4, 3}, {3, 3}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}};
     const std::vector<double> areas = {20, 4, 13};
     for (size_t k = 0; k < outlines.size(); ++k) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -125,7 +128,8 @@ TEST_F(MeshFiles, triangulates_concave_polygons_inside_their_outline)
                 EXPECT_EQ(mesh.triangles.size(), outline.size() - 2);
                 EXPECT_NEAR(area(mesh), areas[k] * std::sqrt(1 + 0.25 * 0.25), 1e-12);
                 for (const auto& [a, b, c] : mesh.triangles) {
-                    const V3d normal = (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]);
+                    const V3d normal =
+                        (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]);
                     EXPECT_GT(turned ? -normal[axis] : normal[axis], 0);
                 }
                 EXPECT_EQ(report_mesh(mesh).self_intersections, 0u);
@@ -148,7 +152,8 @@ TEST_F(MeshFiles, refuses_a_polygon_that_crosses_itself)
 {
     const std::string star = "v 0 3 0\nv 2 -3 0\nv -3 1 0\nv 3 1 0\nv -2 -3 0\n";
     EXPECT_EQ(error_of("star.obj", star + "f 1 2 3 4 5\n"),
-              "star.obj:6: found a face of 5 corners that crosses or overlaps itself, expected faces that do not (export the mesh as triangles)");
+              "star.obj:6: found a face of 5 corners that crosses or overlaps itself, expected faces that do not "
+              "(export the mesh as triangles)");
 }
 
 TEST_F(MeshFiles, drops_faces_of_no_area)
@@ -157,7 +162,8 @@ TEST_F(MeshFiles, drops_faces_of_no_area)
                             "v 11 20 30\nf 1 1 2\nf 1 2\nf 3\nf 1 9 2\nf 1 2 2 1 1\n";
     const TriangleMesh mesh = read("box.obj", obj);
     EXPECT_EQ(mesh.triangles.size(), 12u);
-    EXPECT_EQ(error_of("line.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n"), "line.obj: found no face with an area, expected a mesh with faces");
+    EXPECT_EQ(error_of("line.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n"),
+              "line.obj: found no face with an area, expected a mesh with faces");
 }
 
 TEST_F(MeshFiles, joins_the_vertices_of_a_seam_only_where_that_closes_the_surface)
@@ -165,7 +171,8 @@ TEST_F(MeshFiles, joins_the_vertices_of_a_seam_only_where_that_closes_the_surfac
     std::string apart, touching;
     uint32_t n = 0;
     for (const auto& face : box_faces) {
-        for (const uint32_t c : face) apart += fmt::format("v {} {} {}\n", box_corners[c].x, box_corners[c].y, box_corners[c].z);
+        for (const uint32_t c : face)
+            apart += fmt::format("v {} {} {}\n", box_corners[c].x, box_corners[c].y, box_corners[c].z);
         apart += fmt::format("f {} {} {} {}\n", n + 1, n + 2, n + 3, n + 4);
         n += 4;
     }
@@ -224,8 +231,11 @@ TEST(TriangleMesh, volume_keeps_its_digits_far_from_the_origin_and_scales_exactl
 TEST(TriangleMesh, counts_pairs_of_faces_that_meet_elsewhere)
 {
     // A triangle that pierces another; one that only shares a vertex; one folded flat on its neighbour; the same twice.
-    const std::vector<V3d> p = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}, {5, 5, 0}, {-1, 0, 0}, {0, -1, 0}, {1, 1, 0}};
-    const auto count = [&](std::vector<std::array<uint32_t, 3>> triangles) { return report_mesh({p, std::move(triangles)}).self_intersections; };
+    const std::vector<V3d> p = {{0, 0, 0}, {4, 0, 0},  {0, 4, 0},  {1, 1, -1}, {1, 1, 1},
+                                {5, 5, 0}, {-1, 0, 0}, {0, -1, 0}, {1, 1, 0}};
+    const auto count = [&](std::vector<std::array<uint32_t, 3>> triangles) {
+        return report_mesh({p, std::move(triangles)}).self_intersections;
+    };
     EXPECT_EQ(count({{0, 1, 2}, {3, 4, 5}}), 1u);
     EXPECT_EQ(count({{0, 1, 2}, {0, 6, 7}}), 0u);
     EXPECT_EQ(count({{0, 1, 2}, {0, 3, 4}}), 1u); // shares a vertex and pierces

@@ -24,10 +24,12 @@ private:
 
 /// `count` spheres in a cube of edge `edge` around `center`, ids 1, 2, ..., types 1 to 3 in turns, radii log-normal of
 /// median 1 and the given sigma.
-ParticleFrame random_spheres(size_t count, double edge, double sigma = 0, Imath::V3d center = Imath::V3d(0), uint64_t seed = 1);
+ParticleFrame random_spheres(size_t count, double edge, double sigma = 0, Imath::V3d center = Imath::V3d(0),
+                             uint64_t seed = 1);
 
 /// The mixture of a JSON text for the frame, grain types "a" to "d", the dump's 1, 2, 3 being a, b, c.
-std::unique_ptr<Mixture> mixture_of(const std::string& json, const ParticleFrame* frame, const std::filesystem::path& folder = ".");
+std::unique_ptr<Mixture> mixture_of(const std::string& json, const ParticleFrame* frame,
+                                    const std::filesystem::path& folder = ".");
 
 /// The type of every sphere.
 std::vector<uint32_t> types_of(const Mixture& mixture, const ParticleFrame& frame);

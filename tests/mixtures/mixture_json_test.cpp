@@ -48,9 +48,12 @@ public:
             m = {{"kind", "perlin"}, {"types", some_of(types)}};
             noise(m);
             const size_t n = m["types"].size();
-            if (flip()) m["threshold"] = sorted(numbers(n - 1, -0.5, 0.5));
-            else if (flip()) m["fraction"] = numbers(n, 0.1, 1);
-            else if (n == 2) m["fraction"] = n_.unit();
+            if (flip())
+                m["threshold"] = sorted(numbers(n - 1, -0.5, 0.5));
+            else if (flip())
+                m["fraction"] = numbers(n, 0.1, 1);
+            else if (n == 2)
+                m["fraction"] = n_.unit();
             break;
         }
         case 5:
@@ -60,8 +63,10 @@ public:
             break;
         case 6:
             m = {{"kind", "layers"}, {"types", some_of(types)}};
-            if (flip()) m["thicknesses"] = 0.1 + n_.unit();
-            else m["thicknesses"] = numbers(m["types"].size(), 0.1, 4);
+            if (flip())
+                m["thicknesses"] = 0.1 + n_.unit();
+            else
+                m["thicknesses"] = numbers(m["types"].size(), 0.1, 4);
             if (flip()) m["direction"] = numbers(3, 0.1, 1);
             if (flip()) m["offset"] = number(-3, 3);
             if (flip()) m["repeat"] = flip();
@@ -148,7 +153,8 @@ protected:
     }
     std::vector<uint32_t> evaluate(const MixtureDescription& description)
     {
-        return test::types_of(*make_mixture(description, {scene_types, {{1, "a"}, {2, "b"}, {3, "c"}}, &frame_, false, "dump"}), frame_);
+        return test::types_of(
+            *make_mixture(description, {scene_types, {{1, "a"}, {2, "b"}, {3, "c"}}, &frame_, false, "dump"}), frame_);
     }
     std::string error(const std::string& text)
     {
@@ -212,8 +218,20 @@ TEST_F(MixtureJson, DamagedMixturesAreInputErrorsAndNeverWorse)
             const auto keys = flat.items();
             auto it = keys.begin();
             for (uint64_t k = n.below(flat.size()); k > 0; --k) ++it;
-            const std::vector<json> values{nullptr, -1, 0, 1e308, -1e308, 1e-320, "", "zz", json::array(), json::object(), true,
-                                           std::numeric_limits<uint64_t>::max(), json::array({1, 2}), "a"};
+            const std::vector<json> values{nullptr,
+                                           -1,
+                                           0,
+                                           1e308,
+                                           -1e308,
+                                           1e-320,
+                                           "",
+                                           "zz",
+                                           json::array(),
+                                           json::object(),
+                                           true,
+                                           std::numeric_limits<uint64_t>::max(),
+                                           json::array({1, 2}),
+                                           "a"};
             flat[it.key()] = values[n.below(values.size())];
             try {
                 tree = flat.unflatten();
@@ -227,7 +245,9 @@ TEST_F(MixtureJson, DamagedMixturesAreInputErrorsAndNeverWorse)
                 switch (n.below(3)) {
                 case 0: text.erase(at, 1 + n.below(5)); break;
                 case 1: text[at] = static_cast<char>(n.below(256)); break;
-                default: text.insert(text.begin() + static_cast<std::ptrdiff_t>(at), "{}[],:\"0-9.e"[n.below(12)]); break;
+                default:
+                    text.insert(text.begin() + static_cast<std::ptrdiff_t>(at), "{}[],:\"0-9.e"[n.below(12)]);
+                    break;
                 }
             }
         }
@@ -253,13 +273,17 @@ TEST_F(MixtureJson, ErrorsSayWhereAndSuggest)
     EXPECT_THAT(error(R"({"kind": "random", "types": ["a", "b"], "weights": [0, 0]})"), HasSubstr("a sum above 0"));
     EXPECT_THAT(error(R"({"kind": "random", "types": ["a", "b"], "weights": [1]})"), HasSubstr("a list of 2"));
     EXPECT_THAT(error(R"({"kind": "perlin", "types": ["a", "b"]})"), HasSubstr("scale"));
-    EXPECT_THAT(error(R"({"kind": "perlin", "types": ["a", "b"], "scale": 1, "threshold": 0, "fraction": 0.5})"), HasSubstr("either"));
+    EXPECT_THAT(error(R"({"kind": "perlin", "types": ["a", "b"], "scale": 1, "threshold": 0, "fraction": 0.5})"),
+                HasSubstr("either"));
     EXPECT_THAT(error(R"({"kind": "radius", "types": ["a", "b", "c"], "thresholds": [2, 1]})"), HasSubstr("ascending"));
     EXPECT_THAT(error(R"({"kind": "layers", "types": ["a"], "thicknesses": 0})"), HasSubstr("above 0"));
-    EXPECT_THAT(error(R"({"kind": "layers", "types": ["a"], "thicknesses": 1, "direction": [0, 0, 0]})"), HasSubstr("direction"));
-    EXPECT_THAT(error(R"({"kind": "blend", "by": "rimm", "mixtures": {"rim": "a", "core": "b"}})"), HasSubstr("did you mean 'rim'"));
-    EXPECT_THAT(error(R"({"kind": "blend", "by": "rim", "mixtures": {"rim": {"kind": "single", "type": "a", "frame": 0}}})"),
-                HasSubstr("frame"));
+    EXPECT_THAT(error(R"({"kind": "layers", "types": ["a"], "thicknesses": 1, "direction": [0, 0, 0]})"),
+                HasSubstr("direction"));
+    EXPECT_THAT(error(R"({"kind": "blend", "by": "rimm", "mixtures": {"rim": "a", "core": "b"}})"),
+                HasSubstr("did you mean 'rim'"));
+    EXPECT_THAT(
+        error(R"({"kind": "blend", "by": "rim", "mixtures": {"rim": {"kind": "single", "type": "a", "frame": 0}}})"),
+        HasSubstr("frame"));
     EXPECT_THAT(error(R"({"kind": "explicit", "types": {"1": "a", "2": "b"}})"), HasSubstr("type 3"));
     EXPECT_EQ(error(R"({"kind": "explicit"})"), "none");
 }
@@ -267,18 +291,21 @@ TEST_F(MixtureJson, ErrorsSayWhereAndSuggest)
 TEST_F(MixtureJson, FilesInsideFiles)
 {
     std::filesystem::create_directory(folder_.path("sub"));
-    folder_.write("sub/grid.json", R"({"kind": "grid", "fields": [{"type": "a", "file": "../ramp.vdb"}], "rest": "b", "frame": 3})");
+    folder_.write("sub/grid.json",
+                  R"({"kind": "grid", "fields": [{"type": "a", "file": "../ramp.vdb"}], "rest": "b", "frame": 3})");
     const MixtureDescription description = read(R"({"file": "sub/grid.json"})");
     EXPECT_EQ(description.decided.frame, 3);
     EXPECT_EQ(read(R"({"file": "sub/grid.json", "frame": "each"})").decided, (DecisionFrame{true, -1}));
-    EXPECT_EQ(evaluate(description), evaluate(read(R"({"kind": "grid", "fields": [{"type": "a", "file": "ramp.vdb"}], "rest": "b"})")));
+    EXPECT_EQ(evaluate(description),
+              evaluate(read(R"({"kind": "grid", "fields": [{"type": "a", "file": "ramp.vdb"}], "rest": "b"})")));
     EXPECT_EQ(write_mixture(description, folder_.path("sub"))["fields"][0]["file"], "../ramp.vdb");
 
     folder_.write("loop.json", R"({"kind": "blend", "by": "x", "mixtures": {"x": {"file": "loop.json"}}})");
     EXPECT_THAT(error(R"({"file": "loop.json"})"), HasSubstr("circle"));
     EXPECT_THAT(error(R"({"file": "none.json"})"), HasSubstr("none.json"));
 
-    const std::string scene = folder_.write("scene.json", R"({"grains": {"types": {}, "mixture": {"kind": "single", "type": "b"}}})");
+    const std::string scene =
+        folder_.write("scene.json", R"({"grains": {"types": {}, "mixture": {"kind": "single", "type": "b"}}})");
     EXPECT_EQ(types_named(read_mixture_file(scene)), std::vector<std::string>{"b"});
 }
 
@@ -300,7 +327,8 @@ void check_against_schema(const json& value, const json& schema, const std::stri
     if (value.is_string()) return;
     const std::string kind = value.contains("kind") ? value["kind"].get<std::string>() : "file";
     const json& definition = schema["$defs"][kind];
-    for (const auto& [key, inner] : value.items()) EXPECT_TRUE(definition["properties"].contains(key)) << key << " of " << text;
+    for (const auto& [key, inner] : value.items())
+        EXPECT_TRUE(definition["properties"].contains(key)) << key << " of " << text;
     for (const auto& key : definition["required"]) EXPECT_TRUE(value.contains(key)) << key << " of " << text;
     if (value.contains("jitter")) {
         const json& noise = definition["properties"]["jitter"]["properties"];
@@ -321,12 +349,18 @@ TEST_F(MixtureJson, TheSchemaKnowsTheKeys)
         check_against_schema(json::parse(write_mixture(read(text), folder_.path()).dump()), schema, text);
     }
     // The other way: the reader lists what it knows when a key is unknown, and the schema has no more.
-    for (const auto& [kind, start] : std::map<std::string, std::string>{
-             {"single", R"("type": "a")"}, {"explicit", R"("table": "t.csv")"}, {"random", R"("types": ["a"])"},
-             {"perlin", R"("types": ["a"], "scale": 1)"}, {"checkerboard", R"("types": ["a"], "cell": 1)"},
-             {"layers", R"("types": ["a"], "thicknesses": 1)"}, {"radius", R"("types": ["a"], "thresholds": [])"},
-             {"grid", R"("fields": [{"type": "a", "file": "f"}])"}, {"blend", R"("by": "x", "mixtures": {"x": "a"})"}}) {
-        const auto unknown = test::input_error_of([&] { read(fmt::format(R"({{"kind": "{}", {}, "zz": 1}})", kind, start)); });
+    for (const auto& [kind, start] :
+         std::map<std::string, std::string>{{"single", R"("type": "a")"},
+                                            {"explicit", R"("table": "t.csv")"},
+                                            {"random", R"("types": ["a"])"},
+                                            {"perlin", R"("types": ["a"], "scale": 1)"},
+                                            {"checkerboard", R"("types": ["a"], "cell": 1)"},
+                                            {"layers", R"("types": ["a"], "thicknesses": 1)"},
+                                            {"radius", R"("types": ["a"], "thresholds": [])"},
+                                            {"grid", R"("fields": [{"type": "a", "file": "f"}])"},
+                                            {"blend", R"("by": "x", "mixtures": {"x": "a"})"}}) {
+        const auto unknown =
+            test::input_error_of([&] { read(fmt::format(R"({{"kind": "{}", {}, "zz": 1}})", kind, start)); });
         ASSERT_TRUE(unknown) << kind;
         for (const auto& [key, value] : schema["$defs"][kind]["properties"].items())
             EXPECT_THAT(unknown->expected(), HasSubstr(key)) << kind;

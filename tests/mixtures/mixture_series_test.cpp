@@ -1,7 +1,7 @@
 // Over the frames of a film no sphere changes its type or rotation.
 
-#include "ingest/particles/dump_series.h"
 #include "base/json.h"
+#include "ingest/particles/dump_series.h"
 #include "mixtures/identity.h"
 #include "mixtures/mixture_series.h"
 #include "mixtures/read_mixture.h"

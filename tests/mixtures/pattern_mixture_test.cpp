@@ -1,7 +1,7 @@
+#include "base/hash.h"
 #include "mixtures/blend_mixture.h"
 #include "mixtures/checkerboard_mixture.h"
 #include "mixtures/explicit_mixture.h"
-#include "base/hash.h"
 #include "mixtures/single_mixture.h"
 #include "tests/builders/statistics.h"
 #include "tests/builders/test_files.h"
@@ -27,14 +27,16 @@ TEST(PossibleTypes, AreThoseThatAMixtureCanGive)
     using Types = std::set<uint32_t>;
     EXPECT_EQ(possible(R"({"kind": "checkerboard", "types": ["a", "c"], "cell": 2})"), (Types{0, 2}));
     EXPECT_EQ(possible(R"({"kind": "perlin", "types": ["b", "c"], "scale": 1})"), (Types{1, 2}));
-    EXPECT_EQ(possible(R"({"kind": "random", "types": ["a", "b", "c"], "weights": [1, 0, 1]})"), (Types{0, 2})) << "no sphere draws what weighs nothing";
+    EXPECT_EQ(possible(R"({"kind": "random", "types": ["a", "b", "c"], "weights": [1, 0, 1]})"), (Types{0, 2}))
+        << "no sphere draws what weighs nothing";
     EXPECT_EQ(possible(R"("b")"), Types{1});
     EXPECT_EQ(ExplicitMixture(std::vector<uint32_t>{7, 300, 7}).possible_types(), (Types{7, 300}));
     EXPECT_EQ(ExplicitMixture(std::vector<uint8_t>{2, 0, 2}).possible_types(), (Types{0, 2}));
     std::vector<std::unique_ptr<Mixture>> inner;
     inner.push_back(std::make_unique<SingleMixture>(4));
     inner.push_back(std::make_unique<SingleMixture>(5));
-    EXPECT_EQ(BlendMixture(std::make_unique<SingleMixture>(1), std::move(inner)).possible_types(), Types{5}) << "the other is never asked";
+    EXPECT_EQ(BlendMixture(std::make_unique<SingleMixture>(1), std::move(inner)).possible_types(), Types{5})
+        << "the other is never asked";
 }
 
 TEST(Checkerboard, CellsTakeTurns)
@@ -50,21 +52,23 @@ TEST(Checkerboard, CellsTakeTurns)
 
 TEST(Checkerboard, ThreeTypesOffsetAndUnequalCells)
 {
-    const auto mixture =
-        test::mixture_of(R"({"kind": "checkerboard", "types": ["a", "b", "c"], "cell": [1, 2, 4], "offset": [0.5, 0, 0]})", nullptr);
+    const auto mixture = test::mixture_of(
+        R"({"kind": "checkerboard", "types": ["a", "b", "c"], "cell": [1, 2, 4], "offset": [0.5, 0, 0]})", nullptr);
     for (int i = -4; i < 4; ++i)
         for (int j = -4; j < 4; ++j)
             for (int k = -4; k < 4; ++k) {
-                const V3f middle(static_cast<float>(i) + 1.0f, static_cast<float>(2 * j + 1), static_cast<float>(4 * k + 2));
+                const V3f middle(static_cast<float>(i) + 1.0f, static_cast<float>(2 * j + 1),
+                                 static_cast<float>(4 * k + 2));
                 EXPECT_EQ(type_at(*mixture, middle), static_cast<uint32_t>(((i + j + k) % 3 + 3) % 3));
             }
 }
 
 TEST(Checkerboard, RotationTurnsTheBoardAboutItsCorner)
 {
-    const auto turned = test::mixture_of(R"({"kind": "checkerboard", "types": ["a", "b"], "cell": 1, "rotation": [0, 0, 45]})", nullptr);
+    const auto turned = test::mixture_of(
+        R"({"kind": "checkerboard", "types": ["a", "b"], "cell": 1, "rotation": [0, 0, 45]})", nullptr);
     const float d = static_cast<float>(std::sqrt(0.5));
-    EXPECT_EQ(type_at(*turned, {0, d, 0.5f}), 0u);  // along the board's diagonal
+    EXPECT_EQ(type_at(*turned, {0, d, 0.5f}), 0u); // along the board's diagonal
     EXPECT_EQ(type_at(*turned, {d, 0, 0.5f}), 1u);
     const Imath::M33d m = rotation_in_degrees({20, -35, 70});
     EXPECT_NEAR((m * m.transposed())[0][1], 0, 1e-15);
@@ -83,7 +87,8 @@ TEST(Checkerboard, PlacesFarOutDoNotCrash)
     EXPECT_EQ(cell_of(-0.5), -1);
     EXPECT_EQ(cell_of(1e30), 0);
     EXPECT_EQ(cell_of(std::nan("")), 0);
-    const auto mixture = test::mixture_of(R"({"kind": "checkerboard", "types": ["a", "b", "c"], "cell": 1e-300})", nullptr);
+    const auto mixture =
+        test::mixture_of(R"({"kind": "checkerboard", "types": ["a", "b", "c"], "cell": 1e-300})", nullptr);
     EXPECT_LT(type_at(*mixture, {1e30f, -1e30f, 3}), 3u);
 }
 
@@ -116,7 +121,9 @@ TEST(Patterns, ScaleBySixteenWithTheScene)
         {R"({"kind": "layers", "types": ["a", "b"], "thicknesses": [1, 2], "jitter": {"amplitude": 1, "scale": 2}})",
          R"({"kind": "layers", "types": ["a", "b"], "thicknesses": [16, 32], "jitter": {"amplitude": 16, "scale": 32}})"}};
     for (const auto& [small, big] : pairs)
-        EXPECT_EQ(test::types_of(*test::mixture_of(small, &frame), frame), test::types_of(*test::mixture_of(big, &large), large)) << small;
+        EXPECT_EQ(test::types_of(*test::mixture_of(small, &frame), frame),
+                  test::types_of(*test::mixture_of(big, &large), large))
+            << small;
 }
 
 TEST(Perlin, ThresholdAndFraction)
@@ -132,8 +139,8 @@ TEST(Perlin, ThresholdAndFraction)
     for (const double f : {0.0, 0.02, 0.3, 0.75, 1.0}) {
         const double error = std::sqrt(f * (1 - f) * (1.0 / 300000 + 1.0 / (1 << 19)));
         for (const int octaves : {1, 4}) {
-            const auto json = fmt::format(R"({{"kind": "perlin", "types": ["a", "b"], "scale": 3, "octaves": {}, "fraction": {}}})",
-                                          octaves, f);
+            const auto json = fmt::format(
+                R"({{"kind": "perlin", "types": ["a", "b"], "scale": 3, "octaves": {}, "fraction": {}}})", octaves, f);
             EXPECT_NEAR(fraction_of(json), f, 4 * error) << json;
         }
     }
@@ -142,7 +149,8 @@ TEST(Perlin, ThresholdAndFraction)
 TEST(Perlin, FractionsOfThreeTypes)
 {
     const ParticleFrame frame = test::random_spheres(300000, 2000);
-    const auto mixture = test::mixture_of(R"({"kind": "perlin", "types": ["c", "a", "b"], "scale": 2, "fraction": [1, 1, 2]})", &frame);
+    const auto mixture =
+        test::mixture_of(R"({"kind": "perlin", "types": ["c", "a", "b"], "scale": 2, "fraction": [1, 1, 2]})", &frame);
     std::vector<double> count(3, 0);
     for (const uint32_t type : test::types_of(*mixture, frame)) count[type] += 1 / 300000.0;
     EXPECT_NEAR(count[2], 0.25, 0.005);
@@ -152,16 +160,16 @@ TEST(Perlin, FractionsOfThreeTypes)
 
 TEST(Layers, InOrderAndAgain)
 {
-    const auto mixture =
-        test::mixture_of(R"({"kind": "layers", "types": ["a", "b", "c"], "thicknesses": [1, 2, 3],
-                             "direction": [0, 0, 5], "offset": 10})", nullptr);
+    const auto mixture = test::mixture_of(R"({"kind": "layers", "types": ["a", "b", "c"], "thicknesses": [1, 2, 3],
+                             "direction": [0, 0, 5], "offset": 10})",
+                                          nullptr);
     for (int i = -30; i < 30; ++i) {
         const double z = i + 0.5, in = z - 10 - 6 * std::floor((z - 10) / 6);
         EXPECT_EQ(type_at(*mixture, {7, -3, static_cast<float>(z)}), in < 1 ? 0u : in < 3 ? 1u : 2u) << z;
     }
-    const auto once =
-        test::mixture_of(R"({"kind": "layers", "types": ["a", "b"], "thicknesses": 2,
-                             "direction": [-1, 0, 0], "repeat": false})", nullptr);
+    const auto once = test::mixture_of(R"({"kind": "layers", "types": ["a", "b"], "thicknesses": 2,
+                             "direction": [-1, 0, 0], "repeat": false})",
+                                       nullptr);
     EXPECT_EQ(type_at(*once, {100, 0, 0}), 0u);
     EXPECT_EQ(type_at(*once, {-1.9f, 0, 0}), 0u);
     EXPECT_EQ(type_at(*once, {-2.1f, 0, 0}), 1u);
@@ -172,8 +180,8 @@ TEST(Layers, JitterMovesFacesByItsAmplitudeAtMost)
 {
     const ParticleFrame frame = test::random_spheres(20000, 40);
     const auto plane = test::mixture_of(R"({"kind": "layers", "types": ["a", "b"], "thicknesses": 4})", &frame);
-    const auto wavy =
-        test::mixture_of(R"({"kind": "layers", "types": ["a", "b"], "thicknesses": 4, "jitter": {"amplitude": 1, "scale": 3}})", &frame);
+    const auto wavy = test::mixture_of(
+        R"({"kind": "layers", "types": ["a", "b"], "thicknesses": 4, "jitter": {"amplitude": 1, "scale": 3}})", &frame);
     int moved = 0;
     for (size_t i = 0; i < frame.size(); ++i) {
         const V3f p = frame.relative_position(i);
@@ -189,9 +197,11 @@ TEST(Radius, ByThresholds)
 {
     ParticleFrame frame = test::random_spheres(4, 1);
     frame.radius = {0.1f, 0.5f, 0.7f, 3.0f};
-    const auto mixture = test::mixture_of(R"({"kind": "radius", "types": ["a", "b", "c"], "thresholds": [0.5, 1]})", &frame);
+    const auto mixture =
+        test::mixture_of(R"({"kind": "radius", "types": ["a", "b", "c"], "thresholds": [0.5, 1]})", &frame);
     EXPECT_EQ(test::types_of(*mixture, frame), (std::vector<uint32_t>{0, 1, 1, 2}));
-    EXPECT_TRUE(test::input_error_of([] { test::mixture_of(R"({"kind": "radius", "types": ["a", "b"], "thresholds": [1]})", nullptr); }));
+    EXPECT_TRUE(test::input_error_of(
+        [] { test::mixture_of(R"({"kind": "radius", "types": ["a", "b"], "thresholds": [1]})", nullptr); }));
 }
 
 TEST(Radius, OfATileThatRepeats)
@@ -209,8 +219,9 @@ TEST(Grid, ChancesAreTheConcentrations)
     const test::TemporaryFolder folder;
     test::write_ramp(folder.path("ramp.vdb"), 11);
     // At x = 4.25 the concentration is 0.425, in trilinear interpolation.
-    const auto mixture = test::mixture_of(R"({"kind": "grid", "fields": [{"type": "b", "file": "ramp.vdb", "grid": "c"}], "rest": "a"})",
-                                          nullptr, folder.path());
+    const auto mixture =
+        test::mixture_of(R"({"kind": "grid", "fields": [{"type": "b", "file": "ramp.vdb", "grid": "c"}], "rest": "a"})",
+                         nullptr, folder.path());
     double chosen = 0;
     constexpr int n = 200000;
     for (uint64_t i = 0; i < n; ++i) chosen += mixture->type(i, {4.25f, 3.5f, 6.75f});
@@ -227,9 +238,9 @@ TEST(Grid, SeveralFieldsShareByTheirSum)
     const test::TemporaryFolder folder;
     test::write_ramp(folder.path("ramp.vdb"), 11);
     // The field twice and no rest: half and half wherever it is not 0; there, the first.
-    const auto mixture =
-        test::mixture_of(R"({"kind": "grid", "fields": [{"type": "c", "file": "ramp.vdb"}, {"type": "b", "file": "ramp.vdb"}]})",
-                         nullptr, folder.path());
+    const auto mixture = test::mixture_of(
+        R"({"kind": "grid", "fields": [{"type": "c", "file": "ramp.vdb"}, {"type": "b", "file": "ramp.vdb"}]})",
+        nullptr, folder.path());
     std::vector<double> count(4, 0);
     constexpr int n = 100000;
     for (uint64_t i = 0; i < n; ++i) count[mixture->type(i, {2, 5, 5})] += 1;
@@ -258,7 +269,8 @@ TEST(Blend, PicksBetweenMixtures)
         "by": {"kind": "layers", "types": ["core", "rim"], "thicknesses": [2, 3]},
         "mixtures": {"rim": {"kind": "blend", "by": {"kind": "explicit", "types": {"1": "m", "2": "n", "3": "m"}},
                              "mixtures": {"m": "b", "n": "c"}},
-                     "core": "a"}})", &frame);
+                     "core": "a"}})",
+                                          &frame);
     for (size_t i = 0; i < frame.size(); ++i) {
         const V3f p = frame.relative_position(i);
         const double in = p.z - 5 * std::floor(p.z / 5.0);

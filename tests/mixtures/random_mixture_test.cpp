@@ -23,7 +23,12 @@ RandomMixture random_mixture(const std::vector<double>& weights, uint64_t seed)
 
 TEST(RandomMixture, FractionsByNumberFollowTheWeights)
 {
-    const std::vector<std::vector<double>> cases{{1, 1}, {0.3, 0.7}, {5, 3, 2}, {1e-3, 1}, {1, 0, 3}, std::vector<double>(40, 1),
+    const std::vector<std::vector<double>> cases{{1, 1},
+                                                 {0.3, 0.7},
+                                                 {5, 3, 2},
+                                                 {1e-3, 1},
+                                                 {1, 0, 3},
+                                                 std::vector<double>(40, 1),
                                                  {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}};
     const double level = sidak(1e-4, static_cast<int>(3 * cases.size()));
     for (const auto& weights : cases) {
@@ -68,8 +73,10 @@ TEST(RandomMixture, NeighbouringSeedsAreIndependent)
 
 TEST(RandomMixture, EqualSeedsInsideABlendAreIndependent)
 {
-    const auto mixture = test::mixture_of(R"({"kind": "blend", "by": {"kind": "random", "types": ["m", "n"]}, "mixtures": {
-        "m": {"kind": "random", "types": ["a", "b"]}, "n": {"kind": "random", "types": ["c", "d"]}}})", nullptr);
+    const auto mixture =
+        test::mixture_of(R"({"kind": "blend", "by": {"kind": "random", "types": ["m", "n"]}, "mixtures": {
+        "m": {"kind": "random", "types": ["a", "b"]}, "n": {"kind": "random", "types": ["c", "d"]}}})",
+                         nullptr);
     std::vector<double> observed(4, 0);
     for (uint64_t i = 0; i < million; ++i) observed[mixture->type(i, {})] += 1;
     const ChiSquare result = chi_square(observed, std::vector<double>(4, double(million) / 4));
@@ -119,7 +126,8 @@ TEST(RandomByVolume, FractionsAreRightOnAStronglyPolydisperseSet)
 {
     for (const size_t count : {20000, 1000000}) {
         const ParticleFrame frame = test::random_spheres(count, 100, 1.0);
-        for (const std::vector<double>& weights : {std::vector<double>{0.5, 0.5}, {0.9, 0.1}, {0.2, 0.3, 0.5}, {0.01, 0.99}, {0, 2, 1}}) {
+        for (const std::vector<double>& weights :
+             {std::vector<double>{0.5, 0.5}, {0.9, 0.1}, {0.2, 0.3, 0.5}, {0.01, 0.99}, {0, 2, 1}}) {
             const auto chosen = choose_by_volume(frame.radius, SphereIds(frame.id), weights, 3, 0);
             const auto fractions = volume_fractions(frame, chosen, weights.size());
             const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);

@@ -14,7 +14,10 @@ using testing::HasSubstr;
 
 class TypeTables : public testing::Test {
 protected:
-    TypeTable read(const std::string& text, const std::string& name = "t.csv") { return read_type_table(folder_.write(name, text)); }
+    TypeTable read(const std::string& text, const std::string& name = "t.csv")
+    {
+        return read_type_table(folder_.write(name, text));
+    }
     std::string error(const std::string& text)
     {
         const auto found = test::input_error_of([&] { read(text); });
@@ -33,7 +36,8 @@ TEST_F(TypeTables, ReadsRowsWithAndWithoutIds)
     EXPECT_TRUE(rows.ids.empty());
     EXPECT_THAT(rows.code, ElementsAre(0, 1, 0));
     EXPECT_THAT(rows.words, ElementsAre("1", "2"));
-    const TypeTable ids = read("\xef\xbb\xbfx;id;type\r\n0.5;7;glass\r\n0.25;3;\"sugar\"\r\n\r\n0;18446744073709551615;glass");
+    const TypeTable ids =
+        read("\xef\xbb\xbfx;id;type\r\n0.5;7;glass\r\n0.25;3;\"sugar\"\r\n\r\n0;18446744073709551615;glass");
     EXPECT_THAT(ids.ids, ElementsAre(7u, 3u, 18446744073709551615u));
     EXPECT_THAT(ids.code, ElementsAre(0, 1, 0));
     EXPECT_THAT(ids.words, ElementsAre("glass", "sugar"));
@@ -66,9 +70,11 @@ TEST_F(TypeTables, ExplicitMixtureById)
     ASSERT_TRUE(missing);
     EXPECT_THAT(missing->what(), HasSubstr("id 4"));
     folder_.write("t.csv", "id,type\n6,2\n6,1\n");
-    EXPECT_THAT(test::input_error_of([&] { types(R"({"kind": "explicit", "table": "t.csv"})", frame); })->what(), HasSubstr("id 6 twice"));
+    EXPECT_THAT(test::input_error_of([&] { types(R"({"kind": "explicit", "table": "t.csv"})", frame); })->what(),
+                HasSubstr("id 6 twice"));
     folder_.write("t.csv", "id,type\n6,zz\n");
-    EXPECT_THAT(test::input_error_of([&] { types(R"({"kind": "explicit", "table": "t.csv"})", frame); })->what(), HasSubstr("zz"));
+    EXPECT_THAT(test::input_error_of([&] { types(R"({"kind": "explicit", "table": "t.csv"})", frame); })->what(),
+                HasSubstr("zz"));
     folder_.write("t.csv", "type\n1\n2\n");
     EXPECT_THAT(test::input_error_of([&] { types(R"({"kind": "explicit", "table": "t.csv"})", frame); })->what(),
                 HasSubstr("as many as spheres, 4"));
@@ -84,7 +90,8 @@ TEST_F(TypeTables, OpenVdbPointsByIdAndByRow)
     write_vdb_points(frame, folder_.path("q.vdb"));
     const ParticleFrame same = read_vdb_points(folder_.path("q.vdb"));
     EXPECT_EQ(types(R"({"kind": "explicit", "table": "q.vdb"})", same), types(R"({"kind": "explicit"})", same));
-    EXPECT_TRUE(test::input_error_of([&] { types(R"({"kind": "explicit", "table": "q.vdb", "column": "kind"})", same); }));
+    EXPECT_TRUE(
+        test::input_error_of([&] { types(R"({"kind": "explicit", "table": "q.vdb", "column": "kind"})", same); }));
 }
 
 TEST_F(TypeTables, ManyTypesTakeTwoBytes)

@@ -44,8 +44,8 @@ double moved_by_units(double x, int units)
     return x;
 }
 
-/// Half anywhere, with radii over four decades; a quarter near a triangle, some right on it; a quarter with the radius that just
-/// fits, or up to two units in the last place from it.
+/// Half anywhere, with radii over four decades; a quarter near a triangle, some right on it; a quarter with the radius
+/// that just fits, or up to two units in the last place from it.
 Ball random_ball(const TriangleMesh& mesh, const Domain& domain, uint64_t index)
 {
     Numbers u(index);
@@ -58,7 +58,8 @@ Ball random_ball(const TriangleMesh& mesh, const Domain& domain, uint64_t index)
         // Weights of 0 and 1 put it on edges and corners.
         const double snap = u.unit();
         const double wa = snap < 0.2 ? 0 : snap < 0.3 ? 1 : a, wb = snap < 0.25 ? 0 : snap < 0.3 ? 0 : b;
-        const V3d p = mesh.positions[t[0]] + (mesh.positions[t[1]] - mesh.positions[t[0]]) * wa + (mesh.positions[t[2]] - mesh.positions[t[0]]) * wb;
+        const V3d p = mesh.positions[t[0]] + (mesh.positions[t[1]] - mesh.positions[t[0]]) * wa +
+                      (mesh.positions[t[2]] - mesh.positions[t[0]]) * wb;
         const double off = u.unit() < 0.3 ? 0 : size * std::pow(10, u.between(-15, -1));
         const V3d centre = p + V3d(u.between(-1, 1), u.between(-1, 1), u.between(-1, 1)) * off;
         return {centre, u.unit() < 0.2 ? 0 : off * std::pow(10, u.between(-2, 1))};
@@ -87,7 +88,8 @@ void compare_with_all_triangles(const TriangleMesh& mesh)
         const bool answer = domain.contains_sphere(ball.centre, ball.radius);
         inside += answer;
         if (answer == truth.contains_sphere(ball.centre, ball.radius)) return;
-        if (wrong++ < 5) ADD_FAILURE() << "ball " << k << " at " << ball.centre << " radius " << ball.radius << ": " << answer;
+        if (wrong++ < 5)
+            ADD_FAILURE() << "ball " << k << " at " << ball.centre << " radius " << ball.radius << ": " << answer;
     });
     EXPECT_EQ(wrong, 0u);
     // Both answers are asked for, else this shows little.
@@ -99,8 +101,10 @@ void compare_with_all_triangles(const TriangleMesh& mesh)
 /// A cube of edge 200 with a cubic cavity of edge 20 in its middle.
 TriangleMesh hollow_cube() { return joined(box_mesh(V3d(-100), V3d(100)), flipped(box_mesh(V3d(-10), V3d(10)))); }
 
-/// Balls in the hollow cube that touch a face, an edge and a corner of the cavity, and a face outside: all in whole numbers.
-const std::vector<Ball> touching = {{{17, 0, 0}, 7}, {{13, 14, 0}, 5}, {{12, 13, 16}, 7}, {{-12, 16, -13}, 7}, {{60, 0, 0}, 40}, {{15, -22, 3}, 13}};
+/// Balls in the hollow cube that touch a face, an edge and a corner of the cavity, and a face outside: all in whole
+/// numbers.
+const std::vector<Ball> touching = {{{17, 0, 0}, 7},     {{13, 14, 0}, 5}, {{12, 13, 16}, 7},
+                                    {{-12, 16, -13}, 7}, {{60, 0, 0}, 40}, {{15, -22, 3}, 13}};
 
 } // namespace
 
@@ -120,7 +124,8 @@ TEST(Containment, TouchingIsInsideAndOneUnitMoreIsNot)
             const V3d centre = ball.centre * scale;
             const double r = ball.radius * scale;
             EXPECT_TRUE(domain.contains_sphere(centre, r)) << ball.centre << " at 2^" << exponent;
-            EXPECT_FALSE(domain.contains_sphere(centre, std::nextafter(r, HUGE_VAL))) << ball.centre << " at 2^" << exponent;
+            EXPECT_FALSE(domain.contains_sphere(centre, std::nextafter(r, HUGE_VAL)))
+                << ball.centre << " at 2^" << exponent;
             EXPECT_TRUE(domain.contains_sphere(centre, std::nextafter(r, 0)));
         }
     }
@@ -137,13 +142,14 @@ TEST(Containment, PointsOfTheSurfaceAreNotInside)
     const TriangleMesh mesh = hollow_cube();
     const Domain domain(mesh, "hollow cube");
     for (const V3d& p : mesh.positions) EXPECT_FALSE(domain.contains(p)) << p;
-    for (const V3d& p : {V3d(10, 3, 10), V3d(-10, 10, 0), V3d(0, 0, 100), V3d(5, 5, 10), V3d(100, 100, 0), V3d(-100, 0.3, 0.7)}) {
+    for (const V3d& p :
+         {V3d(10, 3, 10), V3d(-10, 10, 0), V3d(0, 0, 100), V3d(5, 5, 10), V3d(100, 100, 0), V3d(-100, 0.3, 0.7)}) {
         EXPECT_FALSE(domain.contains(p)) << p;
         EXPECT_FALSE(domain.contains_sphere(p, 1e-300)) << p;
     }
-    EXPECT_FALSE(domain.contains({0, 0, 0}));                              // in the cavity
-    EXPECT_FALSE(domain.contains({0, 0, std::nextafter(10.0, 0)}));        // one unit below its lid
-    EXPECT_TRUE(domain.contains({0, 0, std::nextafter(10.0, 11)}));        // and above
+    EXPECT_FALSE(domain.contains({0, 0, 0})); // in the cavity
+    EXPECT_FALSE(domain.contains({0, 0, std::nextafter(10.0, 0)})); // one unit below its lid
+    EXPECT_TRUE(domain.contains({0, 0, std::nextafter(10.0, 11)})); // and above
     EXPECT_TRUE(domain.contains_sphere({0, 0, std::nextafter(10.0, 11)}, 0x1p-49));
     EXPECT_FALSE(domain.contains_sphere({0, 0, std::nextafter(10.0, 11)}, 0x1.8p-49));
 }
@@ -166,17 +172,20 @@ TEST(Containment, WhatIsNoBallIsNotInside)
 // Rays go straight up: through corners and along edges, where a count of crossings goes wrong most easily.
 TEST(Containment, RaysThroughCornersAndEdges)
 {
-    const TriangleMesh octahedron = {{{8, 0, 0}, {-8, 0, 0}, {0, 8, 0}, {0, -8, 0}, {0, 0, 8}, {0, 0, -8}},
-                                     {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
+    const TriangleMesh octahedron = {
+        {{8, 0, 0}, {-8, 0, 0}, {0, 8, 0}, {0, -8, 0}, {0, 0, 8}, {0, 0, -8}},
+        {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
     const TriangleMesh hollow = joined(octahedron, flipped(scaled(octahedron, 0.5)));
-    const Domain solid(octahedron, "octahedron"), shell(hollow, "hollow octahedron"), cube(box_mesh(V3d(-4), V3d(4)), "cube");
+    const Domain solid(octahedron, "octahedron"), shell(hollow, "hollow octahedron"),
+        cube(box_mesh(V3d(-4), V3d(4)), "cube");
     for (int x = -9; x <= 9; ++x)
         for (int y = -9; y <= 9; ++y)
             for (int z = -9; z <= 9; ++z) {
                 const int sum = std::abs(x) + std::abs(y) + std::abs(z);
                 EXPECT_EQ(solid.contains(V3d(x, y, z)), sum < 8) << x << ' ' << y << ' ' << z;
                 EXPECT_EQ(shell.contains(V3d(x, y, z)), sum < 8 && sum > 4) << x << ' ' << y << ' ' << z;
-                EXPECT_EQ(cube.contains(V3d(x, y, z)), std::max({std::abs(x), std::abs(y), std::abs(z)}) < 4) << x << ' ' << y << ' ' << z;
+                EXPECT_EQ(cube.contains(V3d(x, y, z)), std::max({std::abs(x), std::abs(y), std::abs(z)}) < 4)
+                    << x << ' ' << y << ' ' << z;
             }
 }
 
@@ -189,7 +198,9 @@ TEST(Containment, ScalingByPowersOfTwoChangesNothing)
         const Domain other(scaled(mesh, scale), "scaled torus");
         for (uint64_t k = 0; k < 3000; ++k) {
             const Ball ball = random_ball(mesh, domain, k);
-            ASSERT_EQ(domain.contains_sphere(ball.centre, ball.radius), other.contains_sphere(ball.centre * scale, ball.radius * scale)) << k;
+            ASSERT_EQ(domain.contains_sphere(ball.centre, ball.radius),
+                      other.contains_sphere(ball.centre * scale, ball.radius * scale))
+                << k;
         }
     }
 }

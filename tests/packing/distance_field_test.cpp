@@ -21,7 +21,8 @@ namespace {
 V3d random_place(const Imath::Box3d& box, double margin, uint64_t index)
 {
     const V3d size = box.size() * (1 + 2 * margin);
-    const V3d u(unit_double(hash_index(index, 5, 0)), unit_double(hash_index(index, 5, 1)), unit_double(hash_index(index, 5, 2)));
+    const V3d u(unit_double(hash_index(index, 5, 0)), unit_double(hash_index(index, 5, 1)),
+                unit_double(hash_index(index, 5, 2)));
     return box.min - box.size() * margin + u * size;
 }
 
@@ -33,11 +34,12 @@ V3d place_near_surface(const TriangleMesh& mesh, double reach, uint64_t index)
     const double u = number(0), v = number(1) * (1 - u);
     const V3d& a = mesh.positions[t[0]];
     const double off = reach * std::pow(10, -6 * number(2));
-    return a + (mesh.positions[t[1]] - a) * u + (mesh.positions[t[2]] - a) * v + (V3d(number(3), number(4), number(5)) - V3d(0.5)) * off;
+    return a + (mesh.positions[t[1]] - a) * u + (mesh.positions[t[2]] - a) * v +
+           (V3d(number(3), number(4), number(5)) - V3d(0.5)) * off;
 }
 
-/// The interval holds the truth everywhere, and (narrow) within two voxels of the surface is no wider than the way to the voxel's centre
-/// and back.
+/// The interval holds the truth everywhere, and (narrow) within two voxels of the surface is no wider than the way to
+/// the voxel's centre and back.
 void expect_right(const TriangleMesh& mesh, int cells, uint64_t count, bool narrow = true)
 {
     const Domain domain(mesh, "solid");

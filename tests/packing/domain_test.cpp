@@ -41,7 +41,8 @@ void expect_solid(const TriangleMesh& mesh, double volume)
 
 TEST(Domain, AcceptsCavitiesIslandsAndSeveralPieces)
 {
-    const TriangleMesh cube = box_mesh(V3d(0), V3d(4)), small = box_mesh(V3d(1), V3d(3)), smaller = box_mesh(V3d(1.5), V3d(2.5));
+    const TriangleMesh cube = box_mesh(V3d(0), V3d(4)), small = box_mesh(V3d(1), V3d(3)),
+                       smaller = box_mesh(V3d(1.5), V3d(2.5));
     expect_solid(cube, 64);
     expect_solid(joined(cube, flipped(small)), 56);
     expect_solid(joined(joined(cube, flipped(small)), smaller), 57);
@@ -87,7 +88,8 @@ TEST(Domain, CsgOfLevelSetsIsASolid)
 TEST(Domain, DistanceIsRightTo1e14OfTheBounds)
 {
     const Imath::Box3d around(V3d(-2), V3d(2));
-    for (const TriangleMesh& mesh : {icosphere(2), torus(1, 0.3, 20, 12), double_walled_shell(1, 1e-5), bored_cube(10)}) {
+    for (const TriangleMesh& mesh :
+         {icosphere(2), torus(1, 0.3, 20, 12), double_walled_shell(1, 1e-5), bored_cube(10)}) {
         const Domain domain(mesh, "solid");
         const ExactSolid truth(mesh);
         for (uint64_t k = 0; k < 400; ++k) {
@@ -103,7 +105,8 @@ TEST(Domain, DistanceToSliversIsExactToo)
     // A cone of needles 1e-9 wide.
     TriangleMesh cone{{{0, 0, 0}, {0, 0, 1}}, {}};
     const uint32_t n = 16;
-    for (uint32_t k = 0; k < n; ++k) cone.positions.emplace_back(1e-9 * std::cos(2 * M_PI * k / n), 1e-9 * std::sin(2 * M_PI * k / n), 0);
+    for (uint32_t k = 0; k < n; ++k)
+        cone.positions.emplace_back(1e-9 * std::cos(2 * M_PI * k / n), 1e-9 * std::sin(2 * M_PI * k / n), 0);
     for (uint32_t k = 0; k < n; ++k) {
         cone.triangles.push_back({0, 2 + (k + 1) % n, 2 + k});
         cone.triangles.push_back({1, 2 + k, 2 + (k + 1) % n});
@@ -132,13 +135,16 @@ TEST(Domain, ManyThreadsGetTheAnswersOfOne)
     EXPECT_EQ(one, many);
 }
 
-// Triangles of all shapes, from needles to 1e-12 of their length, at distances of all sizes: the truth is always within the bounds.
+// Triangles of all shapes, from needles to 1e-12 of their length, at distances of all sizes: the truth is always within
+// the bounds.
 TEST(ExactDistance, BoundsHoldTheTruth)
 {
     for (uint64_t k = 0; k < 8000; ++k) {
         const double thin = std::pow(10, number(k, 0, -12, 0)), far = std::pow(10, number(k, 1, -8, 0));
         uint64_t stream = 2;
-        const auto draw = [&] { return V3d(number(k, stream, -1, 1), number(k, stream + 1, -1, 1), number(k, stream + 2, -1, 1)); };
+        const auto draw = [&] {
+            return V3d(number(k, stream, -1, 1), number(k, stream + 1, -1, 1), number(k, stream + 2, -1, 1));
+        };
         const V3d a = draw();
         stream += 3;
         const V3d b = a + draw();
@@ -153,12 +159,13 @@ TEST(ExactDistance, BoundsHoldTheTruth)
         // Rounding 4 lo and 4 hi is none: 0.25 is a power of two.
         EXPECT_GE(compare_distance(p, a, b, c, 4 * d.lo), 0) << k;
         EXPECT_LE(compare_distance(p, a, b, c, 4 * d.hi), 0) << k;
-        // Rounding tilts the direction of a needle's plane by some units times length over height, and that of a short way
-        // by some units times the length over it.
+        // Rounding tilts the direction of a needle's plane by some units times length over height, and that of a short
+        // way by some units times the length over it.
         const double length = std::max({(b - a).length(), (c - b).length(), (a - c).length()});
         const double height = (b - a).cross(c - a).length() / length;
         const double reach = std::max({(a - p).length(), (b - p).length(), (c - p).length()});
-        if (d.lo > 0 && height > 1e-4 * length) { // at needles rounding may take the wrong way: exact arithmetic is for them
+        if (d.lo > 0 &&
+            height > 1e-4 * length) { // at needles rounding may take the wrong way: exact arithmetic is for them
             EXPECT_LE(4 * (d.hi - d.lo), 0x1p-53 * reach * (80 + 64 * length / height + 64 * length / (4 * d.lo))) << k;
         }
         EXPECT_EQ(is_nearer_exactly(p, {a, b, c}, 4 * d.hi + 1e-13), true);

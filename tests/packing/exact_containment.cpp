@@ -23,25 +23,16 @@ struct IntervalVector {
     Interval x, y, z;
 };
 
-IntervalVector operator-(const IntervalVector& a, const IntervalVector& b)
-{
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
+IntervalVector operator-(const IntervalVector& a, const IntervalVector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 
-Interval dot(const IntervalVector& a, const IntervalVector& b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
+Interval dot(const IntervalVector& a, const IntervalVector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 IntervalVector cross(const IntervalVector& a, const IntervalVector& b)
 {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-Interval square(const IntervalVector& a)
-{
-    return CGAL::square(a.x) + CGAL::square(a.y) + CGAL::square(a.z);
-}
+Interval square(const IntervalVector& a) { return CGAL::square(a.x) + CGAL::square(a.y) + CGAL::square(a.z); }
 
 /// From the origin to the segment a to b.
 Interval squared_distance(const IntervalVector& a, const IntervalVector& b)
@@ -56,7 +47,8 @@ Interval squared_distance(const IntervalVector& a, const IntervalVector& b)
 Interval squared_distance(const IntervalVector& a, const IntervalVector& b, const IntervalVector& c)
 {
     const Interval edges[3] = {squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)};
-    Interval nearest(std::min({edges[0].inf(), edges[1].inf(), edges[2].inf()}), std::min({edges[0].sup(), edges[1].sup(), edges[2].sup()}));
+    Interval nearest(std::min({edges[0].inf(), edges[1].inf(), edges[2].inf()}),
+                     std::min({edges[0].sup(), edges[1].sup(), edges[2].sup()}));
     const IntervalVector n = cross(b - a, c - a);
     const Interval sides[3] = {dot(cross(a, b), n), dot(cross(b, c), n), dot(cross(c, a), n)};
     if (std::ranges::any_of(sides, [](const Interval& s) { return s.sup() < 0; })) return nearest;
@@ -70,10 +62,7 @@ IntervalVector from_to(const V3d& p, const V3d& q)
     return {Interval(q.x) - Interval(p.x), Interval(q.y) - Interval(p.y), Interval(q.z) - Interval(p.z)};
 }
 
-Rational::Point_3 rational(const V3d& p)
-{
-    return {CGAL::Gmpq(p.x), CGAL::Gmpq(p.y), CGAL::Gmpq(p.z)};
-}
+Rational::Point_3 rational(const V3d& p) { return {CGAL::Gmpq(p.x), CGAL::Gmpq(p.y), CGAL::Gmpq(p.z)}; }
 
 CGAL::Gmpq exact_square(const V3d& p, const V3d& a, const V3d& b, const V3d& c)
 {
@@ -114,7 +103,8 @@ ExactSolid::ExactSolid(const TriangleMesh& mesh) : impl_(new Impl{mesh, {}, 0})
         Imath::Box3d box;
         for (size_t k = 0; k < 3; ++k) box.extendBy(impl_->corner(face, k));
         impl_->boxes.push_back(box);
-        for (int k = 0; k < 3; ++k) impl_->far = std::max({impl_->far, 16 * std::abs(box.min[k]), 16 * std::abs(box.max[k])});
+        for (int k = 0; k < 3; ++k)
+            impl_->far = std::max({impl_->far, 16 * std::abs(box.min[k]), 16 * std::abs(box.max[k])});
     }
 }
 
@@ -156,7 +146,8 @@ bool ExactSolid::encloses(const V3d& point) const
             const auto a = at(impl_->corner(face, 0)), b = at(impl_->corner(face, 1)), c = at(impl_->corner(face, 2));
             const CGAL::Sign from = CGAL::orientation(a, b, c, p), to = CGAL::orientation(a, b, c, q);
             if (from == to && from != CGAL::ZERO) continue;
-            const CGAL::Sign ab = CGAL::orientation(p, q, a, b), bc = CGAL::orientation(p, q, b, c), ca = CGAL::orientation(p, q, c, a);
+            const CGAL::Sign ab = CGAL::orientation(p, q, a, b), bc = CGAL::orientation(p, q, b, c),
+                             ca = CGAL::orientation(p, q, c, a);
             if (std::min({ab, bc, ca}) == CGAL::NEGATIVE && std::max({ab, bc, ca}) == CGAL::POSITIVE) continue;
             // Meets the triangle, or an edge of it, or its plane: only the first is clear.
             clear = ab != CGAL::ZERO && ab == bc && bc == ca && from != CGAL::ZERO && to != CGAL::ZERO;
@@ -183,7 +174,8 @@ double ExactSolid::distance(const V3d& point) const
     }
     CGAL::Gmpq least(upper);
     for (const auto& [bound, face] : lower)
-        if (bound <= upper) least = std::min(least, exact_square(point, s.corner(face, 0), s.corner(face, 1), s.corner(face, 2)));
+        if (bound <= upper)
+            least = std::min(least, exact_square(point, s.corner(face, 0), s.corner(face, 1), s.corner(face, 2)));
     return std::sqrt(CGAL::to_double(least));
 }
 

@@ -8,8 +8,9 @@
 
 namespace scree {
 
-/// Answers about a solid by going through all its triangles, in arithmetic that cannot be wrong: CGAL's intervals where they
-/// decide, its rational squared distances where they do not, its exact orientations. Shares nothing with Domain. Any thread.
+/// Answers about a solid by going through all its triangles, in arithmetic that cannot be wrong: CGAL's intervals where
+/// they decide, its rational squared distances where they do not, its exact orientations. Shares nothing with Domain.
+/// Any thread.
 class ExactSolid {
 public:
     explicit ExactSolid(const TriangleMesh& mesh);
@@ -30,6 +31,7 @@ private:
 };
 
 /// Square of the distance from a point to a triangle as a rational number, less that of `distance`: its sign.
-int compare_distance(const Imath::V3d& point, const Imath::V3d& a, const Imath::V3d& b, const Imath::V3d& c, double distance);
+int compare_distance(const Imath::V3d& point, const Imath::V3d& a, const Imath::V3d& b, const Imath::V3d& c,
+                     double distance);
 
 } // namespace scree

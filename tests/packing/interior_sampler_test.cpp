@@ -1,7 +1,7 @@
 #include "packing/solids/interior_sampler.h"
 
-#include "packing/solids/tetrahedra.h"
 #include "base/worker_process.h"
+#include "packing/solids/tetrahedra.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/statistics.h"
 #include "tests/packing/solids.h"
@@ -28,7 +28,8 @@ namespace {
 class Script {
 public:
     explicit Script(const std::string& text)
-        : path_(std::filesystem::temp_directory_path() / fmt::format("scree_worker_{}_{}", getpid(), reinterpret_cast<uintptr_t>(this)))
+        : path_(std::filesystem::temp_directory_path() /
+                fmt::format("scree_worker_{}_{}", getpid(), reinterpret_cast<uintptr_t>(this)))
     {
         if (text.empty()) return;
         std::ofstream(path_) << text;
@@ -47,11 +48,12 @@ private:
 double six_volumes(const Tetrahedra& t, size_t k)
 {
     const V3d& a = t.points[t.cells[k][0]];
-    return std::abs((t.points[t.cells[k][1]] - a).dot((t.points[t.cells[k][2]] - a).cross(t.points[t.cells[k][3]] - a)));
+    return std::abs(
+        (t.points[t.cells[k][1]] - a).dot((t.points[t.cells[k][2]] - a).cross(t.points[t.cells[k][3]] - a)));
 }
 
-/// Volumes, first and second moments of the solid that tetrahedra around the origin, with signs, make of its faces: exact for
-/// polyhedra, and nothing of the sampler's.
+/// Volumes, first and second moments of the solid that tetrahedra around the origin, with signs, make of its faces:
+/// exact for polyhedra, and nothing of the sampler's.
 struct Moments {
     double volume = 0;
     V3d first{0}, second{0}; ///< of x, y, z, and of their squares, over the volume
@@ -75,7 +77,8 @@ Moments moments_of(const TriangleMesh& mesh)
 
 const uint64_t sample_count = 100'000;
 
-/// Mean places and squares are those of the solid: |z| < 4.5 for each of 6 (chance of a false alarm 4e-5 for all together).
+/// Mean places and squares are those of the solid: |z| < 4.5 for each of 6 (chance of a false alarm 4e-5 for all
+/// together).
 void expect_moments(const InteriorSampler& sampler, const TriangleMesh& mesh)
 {
     const Moments truth = moments_of(mesh);
@@ -86,12 +89,15 @@ void expect_moments(const InteriorSampler& sampler, const TriangleMesh& mesh)
             first.add(x);
             second.add(x * x);
         }
-        EXPECT_LT(std::abs(first.z(truth.first[axis])), 4.5) << "axis " << axis << ": " << first.mean() << " +- " << first.standard_error();
-        EXPECT_LT(std::abs(second.z(truth.second[axis])), 4.5) << "axis " << axis << ": " << second.mean() << " +- " << second.standard_error();
+        EXPECT_LT(std::abs(first.z(truth.first[axis])), 4.5)
+            << "axis " << axis << ": " << first.mean() << " +- " << first.standard_error();
+        EXPECT_LT(std::abs(second.z(truth.second[axis])), 4.5)
+            << "axis " << axis << ": " << second.mean() << " +- " << second.standard_error();
     }
 }
 
-/// In cells of a lattice that lie wholly inside, points are as many as the cells' share of the volume says (chi-square).
+/// In cells of a lattice that lie wholly inside, points are as many as the cells' share of the volume says
+/// (chi-square).
 void expect_uniform(const InteriorSampler& sampler, const Domain& domain, int cells)
 {
     const auto& [lo, hi] = domain.bounds();
@@ -106,7 +112,9 @@ void expect_uniform(const InteriorSampler& sampler, const Domain& domain, int ce
     double rest = static_cast<double>(sample_count);
     for (size_t k = 0; k < observed.size(); ++k) {
         const auto n = static_cast<size_t>(cells);
-        const V3d middle = lo + edge * (V3d(static_cast<double>(k / (n * n)), static_cast<double>(k / n % n), static_cast<double>(k % n)) + V3d(0.5));
+        const V3d middle = lo + edge * (V3d(static_cast<double>(k / (n * n)), static_cast<double>(k / n % n),
+                                            static_cast<double>(k % n)) +
+                                        V3d(0.5));
         if (!domain.contains_sphere(middle, edge.length() / 2)) continue;
         whole.push_back(observed[k]);
         expected.push_back(static_cast<double>(sample_count) * edge.x * edge.y * edge.z / domain.volume());
@@ -228,7 +236,8 @@ TEST(WithoutTetGen, PointsAreUniformToo)
 {
     TetgenOptions options;
     options.program = "/nonexistent";
-    for (const TriangleMesh& mesh : {joined(box_mesh(V3d(-1), V3d(1)), flipped(box_mesh(V3d(-0.5), V3d(0.75)))), torus(1, 0.4, 24, 16)}) {
+    for (const TriangleMesh& mesh :
+         {joined(box_mesh(V3d(-1), V3d(1)), flipped(box_mesh(V3d(-0.5), V3d(0.75)))), torus(1, 0.4, 24, 16)}) {
         const Domain domain(mesh, "solid");
         const InteriorSampler sampler(domain, options);
         ASSERT_FALSE(sampler.by_tetgen());
@@ -237,17 +246,21 @@ TEST(WithoutTetGen, PointsAreUniformToo)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Ways, FailingTetGen,
-    testing::Values(Failure{"", "without TetGen: there is no /"}, Failure{"#!/bin/sh\nexit 0\n", "its answer makes no sense"},
-                    Failure{"#!/bin/sh\nexit 103\n", "it found faces that intersect"}, Failure{"#!/bin/sh\nkill -SEGV $$\n", "signal 11"},
-                    Failure{"#!/bin/sh\nhead -c 100000 /dev/urandom\n", "its answer makes no sense"},
-                    Failure{"no program", "it could not be started"}, Failure{"#!/bin/sh\ncat\n", "its answer makes no sense"}));
+INSTANTIATE_TEST_SUITE_P(Ways, FailingTetGen,
+                         testing::Values(Failure{"", "without TetGen: there is no /"},
+                                         Failure{"#!/bin/sh\nexit 0\n", "its answer makes no sense"},
+                                         Failure{"#!/bin/sh\nexit 103\n", "it found faces that intersect"},
+                                         Failure{"#!/bin/sh\nkill -SEGV $$\n", "signal 11"},
+                                         Failure{"#!/bin/sh\nhead -c 100000 /dev/urandom\n",
+                                                 "its answer makes no sense"},
+                                         Failure{"no program", "it could not be started"},
+                                         Failure{"#!/bin/sh\ncat\n", "its answer makes no sense"}));
 
 TEST(WorkerProcess, IsKilledWhenItTakesTooLong)
 {
     const std::vector<char> input(10'000'000, 'x'); // more than any buffer between holds
-    for (const char* script : {"sleep 100", "exec 0<&- 1>&-; sleep 100", "while :; do :; done", "cat > /dev/null; sleep 100"}) {
+    for (const char* script :
+         {"sleep 100", "exec 0<&- 1>&-; sleep 100", "while :; do :; done", "cat > /dev/null; sleep 100"}) {
         const auto start = std::chrono::steady_clock::now();
         const WorkerResult result = run_worker("/bin/sh", {"-c", script}, input, std::chrono::milliseconds(300), 1000);
         const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
@@ -286,19 +299,22 @@ TEST(Tetrahedralize, FillsCavitiesAsRegionsOfTheirOwn)
     std::vector<double> volumes;
     for (const auto& [region, v] : volume) volumes.push_back(v / ball);
     const double cavity = std::pow(0.75, 3);
-    EXPECT_THAT(volumes, testing::UnorderedElementsAre(testing::DoubleNear(cavity, 1e-12), testing::DoubleNear(1 - cavity, 1e-12)));
+    EXPECT_THAT(volumes, testing::UnorderedElementsAre(testing::DoubleNear(cavity, 1e-12),
+                                                       testing::DoubleNear(1 - cavity, 1e-12)));
 }
 
 // Straight at TetGen what no check of ours would let through.
 TEST(Tetrahedralize, HostileSurfacesDoNoHarm)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    std::vector<TriangleMesh> hostile = {joined(icosphere(4), moved(icosphere(4), {0.1, 0.2, 0.3})), joined(icosphere(3), icosphere(3)), torus(1, 1.5, 60, 40)};
+    std::vector<TriangleMesh> hostile = {joined(icosphere(4), moved(icosphere(4), {0.1, 0.2, 0.3})),
+                                         joined(icosphere(3), icosphere(3)), torus(1, 1.5, 60, 40)};
     TriangleMesh mesh = icosphere(3);
     for (size_t k = 0; k < mesh.positions.size(); k += 7) mesh.positions[k].y = nan;
     hostile.push_back(mesh);
     mesh = icosphere(3);
-    for (size_t k = 0; k < mesh.positions.size(); ++k) mesh.positions[k] = mesh.positions[k * k % mesh.positions.size()];
+    for (size_t k = 0; k < mesh.positions.size(); ++k)
+        mesh.positions[k] = mesh.positions[k * k % mesh.positions.size()];
     hostile.push_back(mesh);
     mesh = icosphere(3);
     for (V3d& p : mesh.positions) p.z *= 1e-17;

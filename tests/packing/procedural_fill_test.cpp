@@ -1,11 +1,12 @@
-// Which spheres a fill has: those of the repeated tile that lie whole in the domain, each once, whoever asks and in what order.
+// Which spheres a fill has: those of the repeated tile that lie whole in the domain, each once, whoever asks and in
+// what order.
 
 #include "packing/fill/list_fill.h"
 
+#include "base/hash.h"
 #include "ingest/frame_statistics.h"
 #include "ingest/particles/vdb_point_stream.h"
 #include "ingest/particles/vdb_points.h"
-#include "base/hash.h"
 #include "packing/tiles/tile_generator.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/test_files.h"
@@ -45,12 +46,14 @@ std::shared_ptr<const Domain> make_domain(double scale, const V3d& at)
 ParticleFrame list(const ProceduralFill& fill, uint64_t batch = uint64_t{1} << 40)
 {
     ParticleFrame all;
-    list_fill(fill, batch, [&](const ParticleFrame& frame) {
-        all.position.insert(all.position.end(), frame.position.begin(), frame.position.end());
-        all.radius.insert(all.radius.end(), frame.radius.begin(), frame.radius.end());
-        all.type.insert(all.type.end(), frame.type.begin(), frame.type.end());
-        all.id.insert(all.id.end(), frame.id.begin(), frame.id.end());
-    }, {});
+    list_fill(fill, batch,
+              [&](const ParticleFrame& frame) {
+                  all.position.insert(all.position.end(), frame.position.begin(), frame.position.end());
+                  all.radius.insert(all.radius.end(), frame.radius.begin(), frame.radius.end());
+                  all.type.insert(all.type.end(), frame.type.begin(), frame.type.end());
+                  all.id.insert(all.id.end(), frame.id.begin(), frame.id.end());
+              },
+              {});
     all.has_ids = true;
     return all;
 }
@@ -62,7 +65,8 @@ TEST(ProceduralFill, HasExactlyTheWholeSpheresOfTheRepeatedTile)
     const ProceduralFill fill(domain, tile, {0.11, 3});
     const ParticleFrame all = list(fill);
     std::map<uint64_t, V3d> listed;
-    for (size_t i = 0; i < all.size(); ++i) ASSERT_TRUE(listed.emplace(all.id[i], all.position[i]).second) << "twice " << all.id[i];
+    for (size_t i = 0; i < all.size(); ++i)
+        ASSERT_TRUE(listed.emplace(all.id[i], all.position[i]).second) << "twice " << all.id[i];
 
     // Every sphere of every numbered cell, by the domain alone.
     uint64_t whole = 0;
@@ -141,7 +145,8 @@ TEST(ProceduralFill, IsTheSameAtAnyScaleOfTwo)
     const ParticleFrame one = list(ProceduralFill(make_domain(1, V3d(0.3, 0.2, 0.7)), tile, {0.11, 3}));
     for (const int exponent : {-40, 40}) {
         const double scale = std::ldexp(1, exponent);
-        const ParticleFrame other = list(ProceduralFill(make_domain(scale, scale * V3d(0.3, 0.2, 0.7)), tile, {0.11 * scale, 3}));
+        const ParticleFrame other =
+            list(ProceduralFill(make_domain(scale, scale * V3d(0.3, 0.2, 0.7)), tile, {0.11 * scale, 3}));
         ASSERT_EQ(other.id, one.id);
         for (size_t i = 0; i < one.size(); ++i) {
             ASSERT_EQ(other.position[i], scale * one.position[i]);
@@ -158,10 +163,12 @@ TEST(ProceduralFill, IsTheSameWrittenInPartsAndReadBack)
     const ParticleFrame all = list(fill);
     VdbPointStream stream(folder.path("fill.vdb"), fill.voxel());
     int parts = 0;
-    list_fill(fill, 300, [&](const ParticleFrame& frame) {
-        stream.add(frame);
-        ++parts;
-    }, {});
+    list_fill(fill, 300,
+              [&](const ParticleFrame& frame) {
+                  stream.add(frame);
+                  ++parts;
+              },
+              {});
     stream.finish();
     EXPECT_GT(parts, 5);
     const ParticleFrame back = read_vdb_points(folder.path("fill.vdb"));

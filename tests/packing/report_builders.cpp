@@ -16,7 +16,8 @@ namespace {
 /// The cells of a periodic cube, each with its spheres, for Metropolis moves.
 class MoveCells {
 public:
-    MoveCells(const std::vector<V3d>& positions, double edge, double reach) : edge_(edge), n_(static_cast<int>(edge / reach)), cells_(static_cast<size_t>(n_ * n_ * n_))
+    MoveCells(const std::vector<V3d>& positions, double edge, double reach)
+        : edge_(edge), n_(static_cast<int>(edge / reach)), cells_(static_cast<size_t>(n_ * n_ * n_))
     {
         for (size_t i = 0; i < positions.size(); ++i) cells_[of(positions[i])].push_back(i);
     }
@@ -31,7 +32,8 @@ public:
     }
 
     /// Whether none of the spheres around `place`, but i, overlaps a sphere of radius r there.
-    bool free(size_t i, const V3d& place, double r, const std::vector<V3d>& positions, const std::vector<float>& radii) const
+    bool free(size_t i, const V3d& place, double r, const std::vector<V3d>& positions,
+              const std::vector<float>& radii) const
     {
         int c[3];
         for (int axis = 0; axis < 3; ++axis) c[axis] = coordinate(place[axis]);
@@ -50,7 +52,10 @@ public:
 
 private:
     int coordinate(double x) const { return std::min(static_cast<int>(x / edge_ * n_), n_ - 1); }
-    size_t index(int x, int y, int z) const { return static_cast<size_t>((((z + n_) % n_) * n_ + (y + n_) % n_) * n_ + (x + n_) % n_); }
+    size_t index(int x, int y, int z) const
+    {
+        return static_cast<size_t>((((z + n_) % n_) * n_ + (y + n_) % n_) * n_ + (x + n_) % n_);
+    }
     size_t of(const V3d& p) const { return index(coordinate(p.x), coordinate(p.y), coordinate(p.z)); }
 
     double edge_;
@@ -88,7 +93,8 @@ ParticleFrame lattice(const std::string& kind, int cells, float radius)
         for (const V3d& half : {V3d(0, 0.5, 0.5), V3d(0.5, 0, 0.5), V3d(0.5, 0.5, 0)}) basis.push_back(half * cell);
     } else if (kind == "hcp") {
         cell = {1, std::sqrt(3.0), std::sqrt(8.0 / 3)};
-        for (const V3d& part : {V3d(0.5, 0.5, 0), V3d(0.5, 1.0 / 6, 0.5), V3d(0, 2.0 / 3, 0.5)}) basis.push_back(part * cell);
+        for (const V3d& part : {V3d(0.5, 0.5, 0), V3d(0.5, 1.0 / 6, 0.5), V3d(0, 2.0 / 3, 0.5)})
+            basis.push_back(part * cell);
     } else if (kind != "sc") {
         throw std::invalid_argument(kind);
     }
@@ -101,7 +107,8 @@ ParticleFrame lattice(const std::string& kind, int cells, float radius)
     return periodic_frame(std::move(positions), std::vector<float>(count, radius), cell * double(cells));
 }
 
-ParticleFrame hard_sphere_fluid(int cells, double fraction, int sweeps, uint64_t seed, const std::vector<double>& diameters)
+ParticleFrame hard_sphere_fluid(int cells, double fraction, int sweeps, uint64_t seed,
+                                const std::vector<double>& diameters)
 {
     std::vector<V3d> positions = lattice("fcc", cells).position;
     const size_t n = positions.size();

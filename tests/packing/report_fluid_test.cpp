@@ -60,7 +60,8 @@ TEST(ReportFluid, IsWhatTheorySays)
     }
     {
         SCOPED_TRACE("the pair correlation follows Percus and Yevick");
-        // Percus and Yevick are within 4 % of the fluid beyond 1.1 diameters at this fraction (Verlet, Weis 1972); bins scatter by 2 %.
+        // Percus and Yevick are within 4 % of the fluid beyond 1.1 diameters at this fraction (Verlet, Weis 1972); bins
+        // scatter by 2 %.
         const PairCorrelation& g = fluid_report().correlation;
         const std::vector<double> theory = percus_yevick(0.3, 100, 5);
         ASSERT_EQ(g.g.size(), 250u);
@@ -99,7 +100,8 @@ TEST(ReportFluid, CompressedFluidThatIsNoneFails)
     // The fluid at 0.3 blown up to a box for 0.2: holes around every sphere, and the contact value is 0.
     ParticleFrame frame = test::scaled(fluid(), std::cbrt(1.5));
     for (float& r : frame.radius) r = 0.5f;
-    EXPECT_EQ(verdicts_of(make_packing_report(PackedSpheres(frame, "blown up"), tile_source())).at("contact_value"), Verdict::fail);
+    EXPECT_EQ(verdicts_of(make_packing_report(PackedSpheres(frame, "blown up"), tile_source())).at("contact_value"),
+              Verdict::fail);
 }
 
 TEST(ReportFluid, TwoSizes)
@@ -129,7 +131,8 @@ TEST(ReportFluid, TheSameOnAnyNumberOfThreads)
 TEST(ReportFluid, TheSameInAnyUnit)
 {
     const double factor = 0x1p-20;
-    const PackingReport small = make_packing_report(PackedSpheres(test::scaled(fluid(), factor), "fluid"), tile_source());
+    const PackingReport small =
+        make_packing_report(PackedSpheres(test::scaled(fluid(), factor), "fluid"), tile_source());
     const PackingReport& large = fluid_report();
     EXPECT_EQ(small.fraction.hits, large.fraction.hits);
     EXPECT_EQ(small.chords.mean.value, factor * large.chords.mean.value);
@@ -184,7 +187,8 @@ TEST(ReportPacking, LensVolumeIsWhatIsSummedTwice)
     const ParticleFrame frame = test::periodic_frame({V3d(2), V3d(3, 2, 2)}, {1, 0.7f}, V3d(6));
     const NearPairs n = measure_near_pairs(PackedSpheres(frame, "two"));
     const double d = 1, r = 1, s = 0.7f;
-    EXPECT_NEAR(n.lens_volume, M_PI * (r + s - d) * (r + s - d) * (d * d + 2 * d * (r + s) - 3 * (r - s) * (r - s)) / (12 * d), 1e-12);
+    EXPECT_NEAR(n.lens_volume,
+                M_PI * (r + s - d) * (r + s - d) * (d * d + 2 * d * (r + s) - 3 * (r - s) * (r - s)) / (12 * d), 1e-12);
     EXPECT_NEAR(n.worst.at(0).overlap, (r + s - d) / s, 1e-12);
 }
 
@@ -213,7 +217,8 @@ TEST(ReportPacking, PushedApartBedIsNoCrystalButSoft)
 
 TEST(ReportPacking, RattlersAreTakenOutAgainAndAgain)
 {
-    // An fcc crystal with one sphere of half the size: nothing holds it, and its twelve neighbours still hold each other.
+    // An fcc crystal with one sphere of half the size: nothing holds it, and its twelve neighbours still hold each
+    // other.
     ParticleFrame frame = test::lattice("fcc", 4);
     frame.radius[10] = 0.25f;
     const NearPairs n = measure_near_pairs(PackedSpheres(frame, "defect"));
@@ -223,7 +228,8 @@ TEST(ReportPacking, RattlersAreTakenOutAgainAndAgain)
     // A chain leans on itself alone, and falls apart from its ends.
     std::vector<V3d> chain;
     for (int i = 0; i < 6; ++i) chain.emplace_back(i, 5, 5);
-    const NearPairs c = measure_near_pairs(PackedSpheres(test::periodic_frame(chain, std::vector<float>(6, 0.5f), V3d(20)), "chain"));
+    const NearPairs c =
+        measure_near_pairs(PackedSpheres(test::periodic_frame(chain, std::vector<float>(6, 0.5f), V3d(20)), "chain"));
     EXPECT_EQ(c.rattlers, 6u);
     EXPECT_NEAR(c.mean_contacts, 10.0 / 6, 1e-12);
     EXPECT_NEAR(c.fabric.deviatoric, 1, 1e-12);

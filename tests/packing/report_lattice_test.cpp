@@ -23,10 +23,38 @@ struct Truth {
 
 // Q4 and Q6: Steinhardt, Nelson, Ronchetti 1983 (fcc, hcp: 12 neighbours) and Mickel et al. 2013 (bcc: 14; sc: 6).
 const std::vector<Truth> truths{
-    {"sc", 8, std::numbers::pi / 6, 6, 6, 0.76376, 0.35355, {{1, 6}, {std::sqrt(2.0), 12}, {std::sqrt(3.0), 8}, {2, 6}}},
-    {"bcc", 7, std::numbers::pi* std::sqrt(3.0) / 8, 8, 14, 0.03637, 0.51069, {{1, 8}, {std::sqrt(4.0 / 3), 6}, {std::sqrt(8.0 / 3), 12}}},
-    {"fcc", 6, std::numbers::pi / (3 * std::sqrt(2.0)), 12, 12, 0.19094, 0.57452, {{1, 12}, {std::sqrt(2.0), 6}, {std::sqrt(3.0), 24}, {2, 12}}},
-    {"hcp", 6, std::numbers::pi / (3 * std::sqrt(2.0)), 12, 12, 0.09722, 0.48476, {{1, 12}, {std::sqrt(2.0), 6}, {std::sqrt(8.0 / 3), 2}, {std::sqrt(3.0), 18}}},
+    {"sc",
+     8,
+     std::numbers::pi / 6,
+     6,
+     6,
+     0.76376,
+     0.35355,
+     {{1, 6}, {std::sqrt(2.0), 12}, {std::sqrt(3.0), 8}, {2, 6}}},
+    {"bcc",
+     7,
+     std::numbers::pi* std::sqrt(3.0) / 8,
+     8,
+     14,
+     0.03637,
+     0.51069,
+     {{1, 8}, {std::sqrt(4.0 / 3), 6}, {std::sqrt(8.0 / 3), 12}}},
+    {"fcc",
+     6,
+     std::numbers::pi / (3 * std::sqrt(2.0)),
+     12,
+     12,
+     0.19094,
+     0.57452,
+     {{1, 12}, {std::sqrt(2.0), 6}, {std::sqrt(3.0), 24}, {2, 12}}},
+    {"hcp",
+     6,
+     std::numbers::pi / (3 * std::sqrt(2.0)),
+     12,
+     12,
+     0.09722,
+     0.48476,
+     {{1, 12}, {std::sqrt(2.0), 6}, {std::sqrt(8.0 / 3), 2}, {std::sqrt(3.0), 18}}},
 };
 
 class ReportLattice : public testing::TestWithParam<size_t> {
@@ -91,7 +119,8 @@ TEST_P(ReportLattice, PeaksOfThePairCorrelation)
         double found = 0;
         for (const double side : {-0.5, 0.5}) {
             const size_t bin = static_cast<size_t>(std::floor(distance / g.bin_width + side));
-            const double lo = double(bin) * g.bin_width, shell = 4.0 / 3 * std::numbers::pi * (std::pow(lo + g.bin_width, 3) - lo * lo * lo);
+            const double lo = double(bin) * g.bin_width,
+                         shell = 4.0 / 3 * std::numbers::pi * (std::pow(lo + g.bin_width, 3) - lo * lo * lo);
             found += g.g[bin] * density_ * shell;
         }
         EXPECT_NEAR(found, count, 1e-3 * count) << truth_.kind << " at " << distance;
@@ -120,7 +149,8 @@ TEST_P(ReportLattice, ClaimsSayCrystal)
     EXPECT_EQ(verdicts.at("isotropy"), Verdict::pass);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, ReportLattice, testing::Range<size_t>(0, truths.size()), [](const auto& test) { return std::string(truths[test.param].kind); });
+INSTANTIATE_TEST_SUITE_P(Kinds, ReportLattice, testing::Range<size_t>(0, truths.size()),
+                         [](const auto& test) { return std::string(truths[test.param].kind); });
 
 TEST(ReportLatticeImages, OneCellIsAsGoodAsMany)
 {

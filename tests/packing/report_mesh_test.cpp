@@ -1,8 +1,8 @@
+#include "packing/report/packing_report.h"
+#include "packing/report/report_page.h"
 #include "packing/solids/distance_field.h"
 #include "packing/solids/domain.h"
 #include "packing/solids/interior_sampler.h"
-#include "packing/report/packing_report.h"
-#include "packing/report/report_page.h"
 #include "tests/builders/shapes.h"
 #include "tests/packing/report_builders.h"
 
@@ -38,7 +38,10 @@ protected:
         frame.type.push_back(1);
         frame.id.push_back(frame.id.size() + 1000);
     }
-    PackedSpheres packed(const ParticleFrame& frame) const { return PackedSpheres(frame, "filled", {&domain_, &sampler_, &field_}); }
+    PackedSpheres packed(const ParticleFrame& frame) const
+    {
+        return PackedSpheres(frame, "filled", {&domain_, &sampler_, &field_});
+    }
     static std::map<std::string, Verdict> verdicts_of(const PackingReport& r)
     {
         std::map<std::string, Verdict> verdicts;
@@ -65,14 +68,17 @@ TEST_F(ReportMesh, AFillIsWhatItClaims)
     EXPECT_NEAR(r.fraction.bulk, 0.3, 4 * r.fraction.bulk_error + 0.01);
     ASSERT_TRUE(r.containment);
     EXPECT_EQ(r.containment->outside, 0u);
-    EXPECT_NEAR(r.chords.mean.value, r.chords.expected, 4 * std::hypot(r.chords.mean.standard_error, r.chords.expected_error));
+    EXPECT_NEAR(r.chords.mean.value, r.chords.expected,
+                4 * std::hypot(r.chords.mean.standard_error, r.chords.expected_error));
     EXPECT_GT(r.chords.lines, 1000u);
     EXPECT_EQ(r.cells.unbounded, 0u);
     EXPECT_GT(r.cells.cells, 500u);
     EXPECT_NEAR(r.cells.sphere_volume / r.cells.cell_volume, 0.3, 0.01);
-    EXPECT_NEAR(r.correlation.free_path_contact.value, r.theory_contact, 4 * r.correlation.free_path_contact.standard_error);
+    EXPECT_NEAR(r.correlation.free_path_contact.value, r.theory_contact,
+                4 * r.correlation.free_path_contact.standard_error);
     const auto verdicts = verdicts_of(r);
-    for (const char* key : {"fraction", "overlap", "containment", "chords", "contact_value", "crystal"}) EXPECT_EQ(verdicts.at(key), Verdict::pass) << key;
+    for (const char* key : {"fraction", "overlap", "containment", "chords", "contact_value", "crystal"})
+        EXPECT_EQ(verdicts.at(key), Verdict::pass) << key;
 
     // Against depth: nothing at the surface, the whole beyond two radii.
     ASSERT_EQ(r.profiles.size(), 1u);
@@ -133,7 +139,8 @@ TEST_F(ReportMesh, NoBulkIsSaidAndNotGuessed)
     const auto verdicts = verdicts_of(r);
     EXPECT_EQ(verdicts.at("fraction"), Verdict::pass);
     EXPECT_EQ(verdicts.at("containment"), Verdict::pass);
-    for (const char* key : {"chords", "contact_value", "crystal", "cells", "contacts", "profile"}) EXPECT_EQ(verdicts.at(key), Verdict::info) << key;
+    for (const char* key : {"chords", "contact_value", "crystal", "cells", "contacts", "profile"})
+        EXPECT_EQ(verdicts.at(key), Verdict::info) << key;
     EXPECT_NE(html_of(r).find("what is said of the bulk is left out"), std::string::npos);
 }
 

@@ -45,15 +45,18 @@ TEST(SvgPlot, HasNoNumbersThatAreNone)
 {
     const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
     for (const bool log : {false, true}) {
-        for (const auto& ys : std::vector<std::vector<double>>{{}, {0, 0, 0}, {nan, nan, nan}, {1, nan, inf}, {-1, 0, 1}, {1e-300, 1, 1e300}, {5, 5, 5}}) {
+        for (const auto& ys : std::vector<std::vector<double>>{
+                 {}, {0, 0, 0}, {nan, nan, nan}, {1, nan, inf}, {-1, 0, 1}, {1e-300, 1, 1e300}, {5, 5, 5}}) {
             Plot plot = line_of(ys.empty() ? std::vector<double>{} : std::vector<double>{0, 1, 2}, ys);
             plot.log_x = plot.log_y = log;
-            for (const auto style : {PlotSeries::Style::line, PlotSeries::Style::dashes, PlotSeries::Style::dots, PlotSeries::Style::bars}) {
+            for (const auto style : {PlotSeries::Style::line, PlotSeries::Style::dashes, PlotSeries::Style::dots,
+                                     PlotSeries::Style::bars}) {
                 plot.series[0].style = style;
                 const std::string svg = svg_of(plot);
                 EXPECT_NO_THROW(parsed(svg));
                 EXPECT_EQ(svg.find("nan"), std::string::npos);
-                EXPECT_EQ(svg.find("inf"), std::string::npos) << svg.substr(svg.find("inf") < svg.size() ? svg.find("inf") - 80 : 0, 100);
+                EXPECT_EQ(svg.find("inf"), std::string::npos)
+                    << svg.substr(svg.find("inf") < svg.size() ? svg.find("inf") - 80 : 0, 100);
                 EXPECT_LT(svg.size(), 20000u);
             }
         }

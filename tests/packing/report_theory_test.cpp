@@ -24,12 +24,14 @@ TEST(ReportTheory, CarnahanStarling)
 {
     EXPECT_NEAR(carnahan_starling_contact(0.3), 0.85 / 0.343, 1e-12);
     // Z = 1 + 4 f g(1) = (1 + f + f^2 - f^3) / (1 - f)^3
-    for (const double f : {0.05, 0.2, 0.45}) EXPECT_NEAR(1 + 4 * f * carnahan_starling_contact(f), (1 + f + f * f - f * f * f) / std::pow(1 - f, 3), 1e-12);
+    for (const double f : {0.05, 0.2, 0.45})
+        EXPECT_NEAR(1 + 4 * f * carnahan_starling_contact(f), (1 + f + f * f - f * f * f) / std::pow(1 - f, 3), 1e-12);
 }
 
 TEST(ReportTheory, MixturesOfOneSizeAreCarnahanStarling)
 {
-    for (const double f : {0.1, 0.3, 0.49}) EXPECT_NEAR(bmcsl_contact(f, moments_of({0.7})), carnahan_starling_contact(f), 1e-12);
+    for (const double f : {0.1, 0.3, 0.49})
+        EXPECT_NEAR(bmcsl_contact(f, moments_of({0.7})), carnahan_starling_contact(f), 1e-12);
 }
 
 TEST(ReportTheory, MixtureAveragedPairByPair)
@@ -49,14 +51,17 @@ TEST(ReportTheory, MixtureAveragedPairByPair)
 
 TEST(ReportTheory, PercusYevickAtContact)
 {
-    for (const double f : {0.05, 0.3, 0.49}) EXPECT_NEAR(percus_yevick(f, 100, 2)[0], (1 + f / 2) / ((1 - f) * (1 - f)), 1e-12);
+    for (const double f : {0.05, 0.3, 0.49})
+        EXPECT_NEAR(percus_yevick(f, 100, 2)[0], (1 + f / 2) / ((1 - f) * (1 - f)), 1e-12);
 }
 
 TEST(ReportTheory, PercusYevickConverges)
 {
     // The trapezoid rule: four times finer steps, sixteen times less error.
     for (const double x : {1.5, 2.0, 3.25}) {
-        const auto at = [&](int steps) { return percus_yevick(0.4, steps, 4)[static_cast<size_t>(std::lround((x - 1) * steps))]; };
+        const auto at = [&](int steps) {
+            return percus_yevick(0.4, steps, 4)[static_cast<size_t>(std::lround((x - 1) * steps))];
+        };
         const double best = at(1024), coarse = at(64) - best, fine = at(256) - best;
         EXPECT_LT(std::abs(fine), std::abs(coarse) / 10) << x;
         EXPECT_LT(std::abs(coarse), 2e-3) << x;
@@ -82,14 +87,12 @@ TEST(ReportTheory, PercusYevickLowDensity)
     // g = 1 + f g_1 with g_1(x) = 8 - 6 x + x^3 / 2 for 1 < x < 2, exactly (overlap of two exclusion spheres).
     const double f = 1e-4;
     const auto g = percus_yevick(f, 500, 3);
-    for (const double x : {1.0, 1.25, 1.5, 1.9}) EXPECT_NEAR((g[static_cast<size_t>(std::lround((x - 1) * 500))] - 1) / f, 8 - 6 * x + x * x * x / 2, 3e-3) << x;
+    for (const double x : {1.0, 1.25, 1.5, 1.9})
+        EXPECT_NEAR((g[static_cast<size_t>(std::lround((x - 1) * 500))] - 1) / f, 8 - 6 * x + x * x * x / 2, 3e-3) << x;
     EXPECT_NEAR((g[750] - 1) / f, 0, 3e-3);
 }
 
-TEST(ReportTheory, MeanChord)
-{
-    EXPECT_NEAR(mean_void_chord(0.3, moments_of({2})), 4 * 0.7 * 2 / 0.9, 1e-12);
-}
+TEST(ReportTheory, MeanChord) { EXPECT_NEAR(mean_void_chord(0.3, moments_of({2})), 4 * 0.7 * 2 / 0.9, 1e-12); }
 
 TEST(ReportTheory, BallInBox)
 {

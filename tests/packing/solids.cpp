@@ -51,7 +51,8 @@ TriangleMesh bored_cube(int cells)
     // The maximum of signed distances is the distance in the intersection, near enough for a surface.
     const auto value = [](const V3d& p) {
         const double cube = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) - 1;
-        const double bores = std::max({0.45 - std::hypot(p.x, p.y), 0.45 - std::hypot(p.y, p.z), 0.45 - std::hypot(p.z, p.x)});
+        const double bores =
+            std::max({0.45 - std::hypot(p.x, p.y), 0.45 - std::hypot(p.y, p.z), 0.45 - std::hypot(p.z, p.x)});
         const double corner = 0.5 - (V3d(std::abs(p.x), std::abs(p.y), std::abs(p.z)) - V3d(1)).length();
         return std::max({cube, bores, corner});
     };

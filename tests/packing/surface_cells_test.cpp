@@ -31,8 +31,8 @@ double number(uint64_t index, uint64_t stream, double lo = 0, double hi = 1)
     return lo + (hi - lo) * unit_double(hash_index(index, 9, stream));
 }
 
-/// A quarter anywhere in the bounds; the others near a triangle, some from its edges and corners, and a third of them with the radius
-/// that just fits, or up to two units in the last place from it.
+/// A quarter anywhere in the bounds; the others near a triangle, some from its edges and corners, and a third of them
+/// with the radius that just fits, or up to two units in the last place from it.
 Ball random_ball(const Domain& domain, double largest, uint64_t k)
 {
     const Imath::Box3d& bounds = domain.bounds();
@@ -45,12 +45,14 @@ Ball random_ball(const Domain& domain, double largest, uint64_t k)
     const double snap = number(k, 7);
     if (snap < 0.2) b = 0;
     if (snap < 0.1) a = 0;
-    const V3d on = mesh.positions[t[0]] + (mesh.positions[t[1]] - mesh.positions[t[0]]) * a + (mesh.positions[t[2]] - mesh.positions[t[0]]) * b;
+    const V3d on = mesh.positions[t[0]] + (mesh.positions[t[1]] - mesh.positions[t[0]]) * a +
+                   (mesh.positions[t[2]] - mesh.positions[t[0]]) * b;
     const V3d off(number(k, 8, -1, 1), number(k, 9, -1, 1), number(k, 10, -1, 1));
     const V3d centre = on + off * (largest * std::pow(10, number(k, 11, -3, 0.5)));
     if (k % 4 != 1) return {centre, radius};
     double fits = domain.distance(centre);
-    for (uint64_t n = hash_index(k, 9, 12) % 5; n != 2; n += n < 2 ? 1 : -1) fits = std::nextafter(fits, n < 2 ? HUGE_VAL : 0);
+    for (uint64_t n = hash_index(k, 9, 12) % 5; n != 2; n += n < 2 ? 1 : -1)
+        fits = std::nextafter(fits, n < 2 ? HUGE_VAL : 0);
     return {centre, fits > 0 && fits <= largest ? fits : radius};
 }
 
@@ -69,7 +71,8 @@ int64_t compare(const TriangleMesh& mesh, double largest)
         const bool answer = domain.contains_sphere(ball.centre, ball.radius);
         inside += answer;
         if (cells.contains_sphere(ball.centre, ball.radius) == answer) return;
-        if (wrong++ < 5) ADD_FAILURE() << "ball " << k << " at " << ball.centre << " radius " << ball.radius << ": not " << answer;
+        if (wrong++ < 5)
+            ADD_FAILURE() << "ball " << k << " at " << ball.centre << " radius " << ball.radius << ": not " << answer;
     });
     EXPECT_EQ(wrong, 0u);
     EXPECT_GT(inside, count / 20);
@@ -85,7 +88,11 @@ TEST(SurfaceCells, Torus) { compare(torus(1, 0.4, 120, 60), 0.003); }
 TEST(SurfaceCells, CoarseTorus) { compare(torus(1, 0.4, 12, 6), 0.01); }
 // Acute edges and corners, where neighbours' normals differ most.
 TEST(SurfaceCells, Box) { EXPECT_LE(compare(box_mesh({-1, -0.5, -0.125}, {1, 0.75, 2}), 0.01), 0); }
-TEST(SurfaceCells, Needle) { compare({{{0, 0, 0}, {1, 0, 0}, {0.5, 0.05, 0}, {0.5, 0.01, 8}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}}, 0.001); }
+TEST(SurfaceCells, Needle)
+{
+    compare({{{0, 0, 0}, {1, 0, 0}, {0.5, 0.05, 0}, {0.5, 0.01, 8}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}},
+            0.001);
+}
 TEST(SurfaceCells, ThinDoubleWalledShell) { compare(double_walled_shell(4, 0.01), 0.002); }
 TEST(SurfaceCells, OpenWorkedCsgShape) { compare(bored_cube(40), 0.004); }
 TEST(SurfaceCells, PiecesThatTouch)
@@ -122,7 +129,8 @@ TEST(SurfaceCells, ScalingByPowersOfTwoChangesNothing)
             const Ball ball = random_ball(domain, largest, k);
             const bool expected = exponent == -1030 ? other.contains_sphere(ball.centre * scale, ball.radius * scale)
                                                     : cells.contains_sphere(ball.centre, ball.radius);
-            ASSERT_EQ(scaled_cells.contains_sphere(ball.centre * scale, ball.radius * scale), expected) << k << " at 2^" << exponent;
+            ASSERT_EQ(scaled_cells.contains_sphere(ball.centre * scale, ball.radius * scale), expected)
+                << k << " at 2^" << exponent;
         }
     }
 }

@@ -35,7 +35,8 @@ protected:
     std::string error_of(const std::function<void(std::vector<NamedPoints>&)>& damage)
     {
         std::vector<NamedPoints> grids;
-        for (size_t v = 0; v < 3; ++v) grids.push_back({v == 0 ? "points" : "variant_" + std::to_string(v), tile_frame(good_tile(), v)});
+        for (size_t v = 0; v < 3; ++v)
+            grids.push_back({v == 0 ? "points" : "variant_" + std::to_string(v), tile_frame(good_tile(), v)});
         damage(grids);
         write_vdb_points(grids, path());
         const auto error = test::input_error_of([&] { read_tile(path()); });
@@ -56,7 +57,8 @@ TEST_F(TileFile, RoundTrip)
     EXPECT_EQ(back.shared, tile.shared);
     ASSERT_EQ(back.variants.size(), 3u);
     for (size_t v = 0; v < 3; ++v) {
-        for (uint64_t row = 0; row < tile.rows(); ++row) EXPECT_LT((back.variants[v][row] - tile.variants[v][row]).length(), 2.5e-7 * tile.mean_radius());
+        for (uint64_t row = 0; row < tile.rows(); ++row)
+            EXPECT_LT((back.variants[v][row] - tile.variants[v][row]).length(), 2.5e-7 * tile.mean_radius());
         // The generator leaves room for the rounding: not even touching.
         EXPECT_LE(largest_tile_overlap(back, v).overlap, 0);
     }
@@ -69,7 +71,8 @@ TEST_F(TileFile, PlainReadersFindTheFirstVariant)
     ASSERT_EQ(frame.size(), good_tile().rows());
     EXPECT_LT((frame.position[250] - good_tile().variants[0][250]).length(), 1e-6);
     EXPECT_EQ(list_vdb_points(path()), (std::vector<std::string>{"points", "variant_1", "variant_2"}));
-    EXPECT_THAT(test::input_error_of([&] { read_vdb_points(path(), "variant_3"); }).value().what(), HasSubstr("did you mean 'variant_"));
+    EXPECT_THAT(test::input_error_of([&] { read_vdb_points(path(), "variant_3"); }).value().what(),
+                HasSubstr("did you mean 'variant_"));
 }
 
 TEST_F(TileFile, APlainPeriodicPackingWillDo)
@@ -117,7 +120,8 @@ TEST_F(TileFile, DamageIsNamed)
     EXPECT_THAT(error_of([](auto& g) { g[1].frame.radius[17] *= 0.5f; }), HasSubstr("has radius"));
     EXPECT_THAT(error_of([](auto& g) { g[2].frame.type[17] = 5; }), HasSubstr("has type 5"));
     EXPECT_THAT(error_of([](auto& g) { g[2].frame.id[17] = 5000; }), HasSubstr("has id"));
-    EXPECT_THAT(error_of([&](auto& g) { g[1].frame.position[shared] = g[1].frame.position[shared + 1]; }), HasSubstr("variant_1: spheres"));
+    EXPECT_THAT(error_of([&](auto& g) { g[1].frame.position[shared] = g[1].frame.position[shared + 1]; }),
+                HasSubstr("variant_1: spheres"));
     EXPECT_THAT(error_of([](auto& g) {
                     for (auto* all : {&g[2].frame.position}) all->pop_back();
                     g[2].frame.radius.pop_back(), g[2].frame.type.pop_back(), g[2].frame.id.pop_back();

@@ -12,7 +12,8 @@
 namespace scree {
 namespace {
 
-MadeTile fluid(uint64_t count, double fraction, uint32_t variants, uint64_t seed, std::optional<uint64_t> sweeps = {}, const std::vector<std::string>& sizes = {"mono"})
+MadeTile fluid(uint64_t count, double fraction, uint32_t variants, uint64_t seed, std::optional<uint64_t> sweeps = {},
+               const std::vector<std::string>& sizes = {"mono"})
 {
     TileOptions options;
     options.fraction = fraction;
@@ -37,15 +38,17 @@ uint64_t pairs_within(const PackingTile& tile, size_t variant, double x)
     return pairs;
 }
 
-/// Pairs within 1.05 diameters over those of the theory: Carnahan-Starling at contact, falling off as Percus-Yevick does. first, last: the
-/// variants asked.
+/// Pairs within 1.05 diameters over those of the theory: Carnahan-Starling at contact, falling off as Percus-Yevick
+/// does. first, last: the variants asked.
 Estimate near_contact(double f, uint64_t count, int tiles, size_t first, size_t last)
 {
     constexpr int steps = 1000;
     const std::vector<double> py = percus_yevick(f, steps, 1.06);
     double expected = 0;
     for (int k = 0; k < 50; ++k) {
-        const double x = 1 + (k + 0.5) / steps, g = carnahan_starling_contact(f) * (py[static_cast<size_t>(k)] + py[static_cast<size_t>(k) + 1]) / (2 * py[0]);
+        const double x = 1 + (k + 0.5) / steps, g = carnahan_starling_contact(f) *
+                                                    (py[static_cast<size_t>(k)] + py[static_cast<size_t>(k) + 1]) /
+                                                    (2 * py[0]);
         expected += 12 * f * static_cast<double>(count) * x * x * g / steps;
     }
     Estimate ratio;
@@ -56,7 +59,8 @@ Estimate near_contact(double f, uint64_t count, int tiles, size_t first, size_t 
     return ratio;
 }
 
-// Carnahan-Starling is within 0.3 % of the exact fluid, and the slope by Percus-Yevick costs no more over 0.05 diameters.
+// Carnahan-Starling is within 0.3 % of the exact fluid, and the slope by Percus-Yevick costs no more over 0.05
+// diameters.
 constexpr double theory_error = 0.006;
 
 TEST(TileFluid, EqualSpheresHaveTheContactValueOfCarnahanAndStarling)
@@ -64,7 +68,8 @@ TEST(TileFluid, EqualSpheresHaveTheContactValueOfCarnahanAndStarling)
     for (const auto& [f, count] : {std::pair<double, uint64_t>{0.1, 2000}, {0.3, 1000}, {0.4, 500}}) {
         const Estimate ratio = near_contact(f, count, 12, 0, 0);
         EXPECT_LT(ratio.standard_error(), 0.03) << f;
-        EXPECT_LT(std::abs(ratio.mean() - 1), 4 * ratio.standard_error() + theory_error) << f << ": " << ratio.mean() << " +- " << ratio.standard_error();
+        EXPECT_LT(std::abs(ratio.mean() - 1), 4 * ratio.standard_error() + theory_error)
+            << f << ": " << ratio.mean() << " +- " << ratio.standard_error();
     }
 }
 
@@ -73,7 +78,8 @@ TEST(TileFluid, VariantsHaveItToo)
 {
     const Estimate ratio = near_contact(0.3, 1000, 6, 1, 3);
     EXPECT_LT(ratio.standard_error(), 0.03);
-    EXPECT_LT(std::abs(ratio.mean() - 1), 4 * ratio.standard_error() + theory_error) << ratio.mean() << " +- " << ratio.standard_error();
+    EXPECT_LT(std::abs(ratio.mean() - 1), 4 * ratio.standard_error() + theory_error)
+        << ratio.mean() << " +- " << ratio.standard_error();
 }
 
 // The value of the mixture's equation of state, by the pressure along free paths.
@@ -83,13 +89,16 @@ TEST(TileFluid, MixturesHaveThatOfTheirEquationOfState)
     for (uint64_t seed = 0; seed < 12; ++seed) {
         const MadeTile made = fluid(1000, 0.3, 1, seed, {}, {"bidisperse", "ratio=2"});
         const PackedSpheres packed(tile_frame(made.tile, 0), "tile");
-        ratio.add(measure_pair_correlation(packed, 1000 / packed.volume()).free_path_contact.value / bmcsl_contact(0.3, packed.moments()));
+        ratio.add(measure_pair_correlation(packed, 1000 / packed.volume()).free_path_contact.value /
+                  bmcsl_contact(0.3, packed.moments()));
     }
     EXPECT_LT(ratio.standard_error(), 0.03);
-    EXPECT_LT(std::abs(ratio.mean() - 1), 4 * ratio.standard_error() + theory_error) << ratio.mean() << " +- " << ratio.standard_error();
+    EXPECT_LT(std::abs(ratio.mean() - 1), 4 * ratio.standard_error() + theory_error)
+        << ratio.mean() << " +- " << ratio.standard_error();
 }
 
-// Parting random places leaves spheres in touch that had overlapped. A fluid has none of that pile: g is 1.03 at contact and falls linearly (virial expansion: g = 1 + f (8 - 6 x + x^3 / 2) for x < 2).
+// Parting random places leaves spheres in touch that had overlapped. A fluid has none of that pile: g is 1.03 at
+// contact and falls linearly (virial expansion: g = 1 + f (8 - 6 x + x^3 / 2) for x < 2).
 TEST(TileFluid, ADiluteTileHasNoPileAtContact)
 {
     const double f = 0.01;
@@ -98,17 +107,20 @@ TEST(TileFluid, ADiluteTileHasNoPileAtContact)
     for (uint64_t seed = 0; seed < 12; ++seed) {
         const PackingTile tile = fluid(count, f, 1, seed).tile;
         double expected = 0;
-        for (double x = 1.0005; x < 1.5; x += 0.001) expected += 12 * f * static_cast<double>(count) * x * x * (1 + f * (8 - 6 * x + x * x * x / 2)) * 0.001;
+        for (double x = 1.0005; x < 1.5; x += 0.001)
+            expected += 12 * f * static_cast<double>(count) * x * x * (1 + f * (8 - 6 * x + x * x * x / 2)) * 0.001;
         ratio.add(static_cast<double>(pairs_within(tile, 0, 1.5)) / expected);
     }
     EXPECT_LT(ratio.standard_error(), 0.03);
-    EXPECT_LT(std::abs(ratio.mean() - 1), 4 * ratio.standard_error()) << ratio.mean() << " +- " << ratio.standard_error();
+    EXPECT_LT(std::abs(ratio.mean() - 1), 4 * ratio.standard_error())
+        << ratio.mean() << " +- " << ratio.standard_error();
     uint64_t piled = 0, spread = 0;
     for (uint64_t seed = 0; seed < 12; ++seed) {
         piled += pairs_within(fluid(count, f, 1, seed, 0).tile, 0, 1.001);
         spread += pairs_within(fluid(count, f, 1, seed).tile, 0, 1.001);
     }
-    // 12 fluid tiles hold 2.9 pairs within 1.001 diameters, with standard deviation 1.7; without sweeps there are far more.
+    // 12 fluid tiles hold 2.9 pairs within 1.001 diameters, with standard deviation 1.7; without sweeps there are far
+    // more.
     EXPECT_LT(static_cast<double>(spread), 2.9 + 4 * 1.7);
     EXPECT_GT(static_cast<double>(piled), 2.9 + 8 * 1.7);
 }

@@ -16,8 +16,8 @@ namespace {
 
 using testing::HasSubstr;
 
-MadeTile tile_of(const std::vector<std::string>& words, uint64_t count, std::optional<double> fraction, uint32_t variants = 1, uint64_t seed = 1,
-                 const Imath::V3d& size = Imath::V3d(1))
+MadeTile tile_of(const std::vector<std::string>& words, uint64_t count, std::optional<double> fraction,
+                 uint32_t variants = 1, uint64_t seed = 1, const Imath::V3d& size = Imath::V3d(1))
 {
     TileOptions options;
     options.size = size;
@@ -51,8 +51,9 @@ TEST(TilePacking, NothingOverlapsByBruteForce)
         std::optional<double> fraction;
         Imath::V3d size;
     };
-    for (const Case& c : {Case{{"mono"}, std::nullopt, {1, 1, 1}}, Case{{"bidisperse"}, 0.6, {1, 2, 0.7}}, Case{{"lognormal"}, 0.4, {3, 1, 1}},
-                          Case{{"power", "ratio=5"}, std::nullopt, {1, 1, 1}}, Case{{"mono"}, 0.02, {1, 1, 4}}}) {
+    for (const Case& c : {Case{{"mono"}, std::nullopt, {1, 1, 1}}, Case{{"bidisperse"}, 0.6, {1, 2, 0.7}},
+                          Case{{"lognormal"}, 0.4, {3, 1, 1}}, Case{{"power", "ratio=5"}, std::nullopt, {1, 1, 1}},
+                          Case{{"mono"}, 0.02, {1, 1, 4}}}) {
         const MadeTile made = tile_of(c.sizes, 200, c.fraction, 2, 7, c.size);
         for (size_t v = 0; v < 2; ++v) {
             const double brute = brute_overlap(made.tile, v);
@@ -89,7 +90,8 @@ TEST(TilePacking, TheFractionIsTheOneAskedFor)
 {
     // Radii are floats, rounded down: relative 2^-23 each.
     for (const double f : {0.01, 0.3, 0.55, 0.62})
-        for (const auto& words : {std::vector<std::string>{"mono"}, {"power", "ratio=8"}}) EXPECT_NEAR(tile_of(words, 400, f).tile.fraction() / f, 1, 3 * 0x1p-23) << f;
+        for (const auto& words : {std::vector<std::string>{"mono"}, {"power", "ratio=8"}})
+            EXPECT_NEAR(tile_of(words, 400, f).tile.fraction() / f, 1, 3 * 0x1p-23) << f;
 }
 
 TEST(TilePacking, TheSameSeedTheSameTileOnAnyNumberOfThreads)
@@ -121,8 +123,9 @@ TEST(TilePacking, ScaleDoesNotMatter)
     }
 }
 
-// Jammed packings of equal frictionless spheres: f about 0.64, 6 contacts a sphere without rattlers (O'Hern et al. 2003: phi_J
-// = 0.639 for many spheres; compressed more slowly, up to 0.65), no crystal. Jammed means isostatic: Nc = 3 N' - 3, z = 6 - 6 / N'.
+// Jammed packings of equal frictionless spheres: f about 0.64, 6 contacts a sphere without rattlers (O'Hern et al.
+// 2003: phi_J = 0.639 for many spheres; compressed more slowly, up to 0.65), no crystal. Jammed means isostatic: Nc = 3
+// N' - 3, z = 6 - 6 / N'.
 TEST(TilePacking, EqualSpheresJamAtRandomClosePacking)
 {
     const MadeTile made = tile_of({"mono"}, 2000, std::nullopt);
@@ -156,8 +159,10 @@ TEST(TilePacking, AWidePowerLaw)
 
 TEST(TilePacking, WhatCannotBeDoneIsSaid)
 {
-    const auto error = [](uint64_t count, std::optional<double> fraction, uint32_t variants = 1, Imath::V3d size = Imath::V3d(1)) {
-        return std::string(test::input_error_of([&] { tile_of({"mono"}, count, fraction, variants, 1, size); }).value().what());
+    const auto error = [](uint64_t count, std::optional<double> fraction, uint32_t variants = 1,
+                          Imath::V3d size = Imath::V3d(1)) {
+        return std::string(
+            test::input_error_of([&] { tile_of({"mono"}, count, fraction, variants, 1, size); }).value().what());
     };
     EXPECT_THAT(error(300, 0.72), HasSubstr("at most 0.6"));
     EXPECT_THAT(error(300, 1.2), HasSubstr("above 0 and below 1"));
@@ -168,7 +173,8 @@ TEST(TilePacking, WhatCannotBeDoneIsSaid)
     EXPECT_THAT(error(2, 0.2, 2), HasSubstr("none of which is wholly inside"));
     EXPECT_THAT(error(300, 0.5, 1, {1, 0, 1}), HasSubstr("edges above 0"));
     EXPECT_THAT(error(300, 0.5, 1, {1, 100, 1}), HasSubstr("more spheres"));
-    EXPECT_THAT(std::string(test::input_error_of([] { make_tile({}, {}, {}); }).value().what()), HasSubstr("no spheres"));
+    EXPECT_THAT(std::string(test::input_error_of([] { make_tile({}, {}, {}); }).value().what()),
+                HasSubstr("no spheres"));
 }
 
 TEST(TilePacking, CanBeCancelled)

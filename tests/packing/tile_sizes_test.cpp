@@ -24,20 +24,23 @@ std::vector<double> drawn(const TileSizes& kind, uint64_t count, uint64_t seed)
 }
 
 /// Kolmogorov-Smirnov distance of sorted numbers from a distribution function.
-template <class Cdf> double distance(const std::vector<double>& sorted, const Cdf& cdf)
+template <class Cdf>
+double distance(const std::vector<double>& sorted, const Cdf& cdf)
 {
     double worst = 0;
     const auto n = static_cast<double>(sorted.size());
     for (size_t i = 0; i < sorted.size(); ++i) {
         const double p = cdf(sorted[i]);
-        worst = std::max({worst, std::abs(p - static_cast<double>(i) / n), std::abs(p - static_cast<double>(i + 1) / n)});
+        worst =
+            std::max({worst, std::abs(p - static_cast<double>(i) / n), std::abs(p - static_cast<double>(i + 1) / n)});
     }
     return worst;
 }
 
 TEST(TileSizes, MeanIsOneAndOrderIsRandom)
 {
-    for (const std::vector<std::string>& words : {std::vector<std::string>{"mono"}, {"bidisperse"}, {"lognormal"}, {"power"}}) {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"mono"}, {"bidisperse"}, {"lognormal"}, {"power"}}) {
         const std::vector<double> radii = draw_tile_radii(sizes(words), 5000, 3);
         double mean = 0, product = 0, square = 0;
         for (const double r : radii) mean += r / 5000;
@@ -45,23 +48,29 @@ TEST(TileSizes, MeanIsOneAndOrderIsRandom)
         for (size_t i = 0; i + 1 < radii.size(); ++i) product += (radii[i] - 1) * (radii[i + 1] - 1);
         for (const double r : radii) square += (r - 1) * (r - 1);
         // Correlation of neighbours: 0 with standard error 1/sqrt(5000).
-        if (square > 1e-9) { EXPECT_LT(std::abs(product / square), 4 / std::sqrt(5000.0)) << words[0]; }
+        if (square > 1e-9) {
+            EXPECT_LT(std::abs(product / square), 4 / std::sqrt(5000.0)) << words[0];
+        }
     }
 }
 
-// A stratified sample has one radius in each n-th part of the distribution: its distance from it is at most 1/n. The scaling to mean
-// 1 of the sample shifts it further, by the error of the sample's mean, which stratification leaves far below 1/sqrt(n).
+// A stratified sample has one radius in each n-th part of the distribution: its distance from it is at most 1/n. The
+// scaling to mean 1 of the sample shifts it further, by the error of the sample's mean, which stratification leaves far
+// below 1/sqrt(n).
 TEST(TileSizes, LognormalFollowsItsDistribution)
 {
     const std::vector<double> radii = drawn(sizes({"lognormal", "sigma=0.3"}), 10000, 1);
     const double scale = std::exp(-0.3 * 0.3 / 2); // mean 1
-    EXPECT_LT(distance(radii, [&](double r) { return std::erfc(-std::log(r / scale) / 0.3 / std::numbers::sqrt2) / 2; }), 4e-4);
+    EXPECT_LT(
+        distance(radii, [&](double r) { return std::erfc(-std::log(r / scale) / 0.3 / std::numbers::sqrt2) / 2; }),
+        4e-4);
 }
 
 TEST(TileSizes, PowerLawFollowsItsDistribution)
 {
     for (const double exponent : {3.0, 1.0, 0.0, 4.5}) {
-        const std::vector<double> radii = drawn(sizes({"power", "exponent=" + std::to_string(exponent), "ratio=20"}), 10000, 1);
+        const std::vector<double> radii =
+            drawn(sizes({"power", "exponent=" + std::to_string(exponent), "ratio=20"}), 10000, 1);
         const double k = 1 - exponent, most = std::pow(20.0, k);
         const auto moment = [&](double power) { // of r^power over 1..20
             const double e = power - exponent + 1;
@@ -77,10 +86,7 @@ TEST(TileSizes, PowerLawFollowsItsDistribution)
     }
 }
 
-TEST(TileSizes, MinAndMaxAreARatio)
-{
-    EXPECT_DOUBLE_EQ(sizes({"power", "min=0.5", "max=2"}).ratio, 4);
-}
+TEST(TileSizes, MinAndMaxAreARatio) { EXPECT_DOUBLE_EQ(sizes({"power", "min=0.5", "max=2"}).ratio, 4); }
 
 TEST(TileSizes, TwoSizesAreCounted)
 {
@@ -113,12 +119,15 @@ TEST(TileSizes, SeedsDecide)
 TEST(TileSizes, RandomClosePackingOfTheLiterature)
 {
     EXPECT_NEAR(random_close_packing(draw_tile_radii(sizes({"mono"}), 100, 1)), 0.634, 1e-12);
-    EXPECT_NEAR(random_close_packing(draw_tile_radii(sizes({"lognormal"}), 100000, 1)), 0.634 + 0.0658 * 0.30688 + 0.0857 * 0.94950 * 0.30688 * 0.30688, 2e-4);
+    EXPECT_NEAR(random_close_packing(draw_tile_radii(sizes({"lognormal"}), 100000, 1)),
+                0.634 + 0.0658 * 0.30688 + 0.0857 * 0.94950 * 0.30688 * 0.30688, 2e-4);
 }
 
 TEST(TileSizes, BadWordsAreToldFromGoodOnes)
 {
-    const auto error = [](const std::vector<std::string>& words) { return std::string(test::input_error_of([&] { parse_tile_sizes(words); }).value().what()); };
+    const auto error = [](const std::vector<std::string>& words) {
+        return std::string(test::input_error_of([&] { parse_tile_sizes(words); }).value().what());
+    };
     EXPECT_THAT(error({"lognorml"}), HasSubstr("did you mean 'lognormal'"));
     EXPECT_THAT(error({}), HasSubstr("nothing"));
     EXPECT_THAT(error({"mono", "sigma=1"}), HasSubstr("mono alone"));

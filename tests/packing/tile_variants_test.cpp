@@ -10,7 +10,8 @@
 namespace scree {
 namespace {
 
-MadeTile tile_of(const std::vector<std::string>& words, uint64_t count, std::optional<double> fraction, uint32_t variants)
+MadeTile tile_of(const std::vector<std::string>& words, uint64_t count, std::optional<double> fraction,
+                 uint32_t variants)
 {
     TileOptions options;
     options.size = {1, 1.25, 0.9};
@@ -28,7 +29,8 @@ struct Named {
 class TileVariants : public testing::TestWithParam<Named> {};
 
 INSTANTIATE_TEST_SUITE_P(Kinds, TileVariants,
-                         testing::Values(Named{"fluid", {"mono"}, 0.2}, Named{"parted", {"bidisperse"}, 0.58}, Named{"jammed", {"mono"}, std::nullopt},
+                         testing::Values(Named{"fluid", {"mono"}, 0.2}, Named{"parted", {"bidisperse"}, 0.58},
+                                         Named{"jammed", {"mono"}, std::nullopt},
                                          Named{"wide", {"power", "ratio=6"}, 0.55}),
                          [](const auto& one) { return one.param.name; });
 
@@ -42,7 +44,9 @@ TEST_P(TileVariants, AnyVariantFitsBesideAnyOther)
         std::vector<double> radius;
         for (uint64_t cell = 0; cell < 8; ++cell) {
             const auto& inside = tile.variants[hash_index(cell, trial) % 3];
-            const Imath::V3d corner = tile.size * Imath::V3d(static_cast<double>(cell % 2), static_cast<double>(cell / 2 % 2), static_cast<double>(cell / 4));
+            const Imath::V3d corner =
+                tile.size * Imath::V3d(static_cast<double>(cell % 2), static_cast<double>(cell / 2 % 2),
+                                       static_cast<double>(cell / 4));
             for (uint64_t row = 0; row < tile.rows(); ++row) {
                 place.push_back(corner + inside[row]);
                 radius.push_back(tile.radius[row]);
@@ -52,7 +56,8 @@ TEST_P(TileVariants, AnyVariantFitsBesideAnyOther)
         for (size_t i = 0; i < place.size(); ++i)
             for (size_t j = i + 1; j < place.size(); ++j) {
                 Imath::V3d d = place[j] - place[i];
-                for (int axis = 0; axis < 3; ++axis) d[axis] -= std::round(d[axis] / (2 * tile.size[axis])) * 2 * tile.size[axis];
+                for (int axis = 0; axis < 3; ++axis)
+                    d[axis] -= std::round(d[axis] / (2 * tile.size[axis])) * 2 * tile.size[axis];
                 worst = std::max(worst, (radius[i] + radius[j] - d.length()) / std::min(radius[i], radius[j]));
             }
         EXPECT_LE(worst, 0);
@@ -70,12 +75,14 @@ TEST_P(TileVariants, SharedRowsAreAllThatReachThroughFaces)
             if (row < tile.shared)
                 EXPECT_EQ(p, tile.variants[0][row]);
             else
-                for (int axis = 0; axis < 3; ++axis) EXPECT_GE(std::min(p[axis], tile.size[axis] - p[axis]), tile.radius[row]);
+                for (int axis = 0; axis < 3; ++axis)
+                    EXPECT_GE(std::min(p[axis], tile.size[axis] - p[axis]), tile.radius[row]);
         }
 }
 
-/// How many centres of variant a that are at least `shallow` from the faces have a centre of variant b within 0.2 radii, over the number of
-/// the former. Of independent packings of equal spheres 0.008 f of them have: the number density times the volume of the ball.
+/// How many centres of variant a that are at least `shallow` from the faces have a centre of variant b within 0.2
+/// radii, over the number of the former. Of independent packings of equal spheres 0.008 f of them have: the number
+/// density times the volume of the ball.
 double coincidences(const PackingTile& tile, size_t a, size_t b, double shallow)
 {
     const auto &first = tile.variants[a], &second = tile.variants[b];
@@ -84,7 +91,8 @@ double coincidences(const PackingTile& tile, size_t a, size_t b, double shallow)
         const Imath::V3d &p = first[row], to_far = tile.size - p;
         if (std::min({p.x, p.y, p.z, to_far.x, to_far.y, to_far.z}) < shallow) continue;
         ++deep;
-        for (uint64_t other = tile.shared; other < tile.rows(); ++other) near += (p - second[other]).length() < 0.2 * tile.radius[row];
+        for (uint64_t other = tile.shared; other < tile.rows(); ++other)
+            near += (p - second[other]).length() < 0.2 * tile.radius[row];
     }
     EXPECT_GT(deep, 100u);
     return static_cast<double>(near) / static_cast<double>(deep);
@@ -98,13 +106,15 @@ TEST_P(TileVariants, InsidesDiffer)
         EXPECT_LT(coincidences(tile, a, b, 0), 0.1);
         double mean = 0;
         for (uint64_t row = tile.shared; row < tile.rows(); ++row)
-            mean += (tile.variants[a][row] - tile.variants[b][row]).length() / static_cast<double>(tile.rows() - tile.shared);
+            mean += (tile.variants[a][row] - tile.variants[b][row]).length() /
+                    static_cast<double>(tile.rows() - tile.shared);
         // Uniform places in a cuboid of about unit edges are 0.66 apart on average.
         EXPECT_GT(mean, 4 * tile.mean_radius());
     }
 }
 
-// Jammed spheres within two diameters of the faces lie much as the boundary makes them, in every variant; deeper ones do not.
+// Jammed spheres within two diameters of the faces lie much as the boundary makes them, in every variant; deeper ones
+// do not.
 TEST(TileVariantsOfJammed, DifferDeepInside)
 {
     const PackingTile tile = tile_of({"mono"}, 1800, std::nullopt, 2).tile;

@@ -32,9 +32,11 @@ TEST(DirectLight, EveryStrategyGivesTheSamePicture)
     metal.eta = Color(1.5f);
     metal.k = Color(3);
     metal.alpha = 0.2;
-    const uint32_t types[] = {scene.add_type(lambert(0.7f)), scene.add_type(dielectric(1.5, 0.3)), scene.add_type(metal),
-                              scene.add_type(dielectric(1.5)), scene.add_type(lambert(0.5f), cube())};
-    for (int i = 0; i < 25; ++i) scene.add_grain(V3d(1.3 * (i % 5) - 2.6, 1.3 * (i / 5) - 2.6, 0.6), 0.6, types[(i * 7) % 5]);
+    const uint32_t types[] = {scene.add_type(lambert(0.7f)), scene.add_type(dielectric(1.5, 0.3)),
+                              scene.add_type(metal), scene.add_type(dielectric(1.5)),
+                              scene.add_type(lambert(0.5f), cube())};
+    for (int i = 0; i < 25; ++i)
+        scene.add_grain(V3d(1.3 * (i % 5) - 2.6, 1.3 * (i / 5) - 2.6, 0.6), 0.6, types[(i * 7) % 5]);
     scene.add_surface(ground(8, 0), lambert(0.6f));
     add_lights(scene);
     scene.build();
@@ -55,21 +57,24 @@ TEST(DirectLight, EveryStrategyGivesTheSamePicture)
     for (int a = 0; a < 3; ++a) {
         EXPECT_LT(mean[a].standard_error(), 0.012 * mean[a].mean());
         for (int b = 0; b < a; ++b) {
-            EXPECT_LT(std::abs(mean[a].mean() - mean[b].mean()), 4 * std::hypot(mean[a].standard_error(), mean[b].standard_error()));
+            EXPECT_LT(std::abs(mean[a].mean() - mean[b].mean()),
+                      4 * std::hypot(mean[a].standard_error(), mean[b].standard_error()));
         }
     }
     EXPECT_LT(mean[0].standard_error(), mean[1].standard_error());
     EXPECT_LT(mean[0].standard_error(), mean[2].standard_error());
 }
 
-// Irradiance on a floor, by hand: a sphere light of radius r at height h straight above gives E = pi L (r / h)^2; the sun
-// of irradiance E at cosine c gives c E. The floor of reflectance rho then shows rho E / pi.
+// Irradiance on a floor, by hand: a sphere light of radius r at height h straight above gives E = pi L (r / h)^2; the
+// sun of irradiance E at cosine c gives c E. The floor of reflectance rho then shows rho E / pi.
 TEST(DirectLight, FloorShowsTheIrradianceByHand)
 {
     TestScene scene;
     scene.add_surface(ground(4, 0), lambert(0.8f));
     scene.add_light(sphere_light(V3d(0, 0, 2), 0.5, 3));
-    scene.add_light(distant_light(V3d(0, 0.6, 0.8), 1 - std::cos(0.00463), static_cast<float>(2 / (pi * std::sin(0.00463) * std::sin(0.00463))))); // irradiance 2
+    scene.add_light(
+        distant_light(V3d(0, 0.6, 0.8), 1 - std::cos(0.00463),
+                      static_cast<float>(2 / (pi * std::sin(0.00463) * std::sin(0.00463))))); // irradiance 2
     scene.build();
     Estimate radiance;
     for (uint32_t i = 0; i < 100000; ++i) {

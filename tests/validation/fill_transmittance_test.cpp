@@ -1,14 +1,16 @@
-// Light must not see that a fill repeats itself: a dilute fill dims a beam as independent spheres do, along any direction.
+// Light must not see that a fill repeats itself: a dilute fill dims a beam as independent spheres do, along any
+// direction.
 //
-// A parallel beam crosses a ball of radius R, all spheres whole in it: their centres lie in the ball of radius R - r, and a ray at
-// distance b from its middle is met by those in a cylinder of radius r around it. Free paths among hard spheres are
-// 4 r (1 - f) / (3 f) long in the mean, exponential when dilute; so the beam keeps exp(-2 sqrt((R - r)^2 - b^2) 3 f / (4 r (1 - f))).
-// Without rotation and variants a beam along an axis of the lattice keeps far more: the same shadows again and again.
+// A parallel beam crosses a ball of radius R, all spheres whole in it: their centres lie in the ball of radius R - r,
+// and a ray at distance b from its middle is met by those in a cylinder of radius r around it. Free paths among hard
+// spheres are 4 r (1 - f) / (3 f) long in the mean, exponential when dilute; so the beam keeps exp(-2 sqrt((R - r)^2 -
+// b^2) 3 f / (4 r (1 - f))). Without rotation and variants a beam along an axis of the lattice keeps far more: the same
+// shadows again and again.
 
+#include "base/sampler.h"
 #include "mixtures/single_mixture.h"
 #include "packing/tiles/tile_generator.h"
 #include "render/trace/tracer.h"
-#include "base/sampler.h"
 #include "tests/builders/shapes.h"
 
 #include <gmock/gmock.h>
@@ -24,7 +26,8 @@ protected:
     {
         TileOptions options;
         options.fraction = fraction;
-        const auto tile = std::make_shared<const PackingTile>(make_tile(std::vector<double>(2000, 1.0), options, {}).tile);
+        const auto tile =
+            std::make_shared<const PackingTile>(make_tile(std::vector<double>(2000, 1.0), options, {}).tile);
         const auto domain = std::make_shared<const Domain>(icosphere(5), "ball");
         fill_ = std::make_shared<const ProceduralFill>(domain, tile, FillOptions{radius_, 0});
         world_.fill = std::make_shared<GrainFill>(fill_, std::make_shared<SingleMixture>(0), world_.space);
@@ -33,7 +36,8 @@ protected:
         tracer_ = std::make_unique<Tracer>(std::make_shared<EmbreeDevice>(), world_);
     }
 
-    /// Measured over expected transmittance of a beam along d, and the standard error of that, from 64 patches of the beam.
+    /// Measured over expected transmittance of a beam along d, and the standard error of that, from 64 patches of the
+    /// beam.
     std::pair<double, double> ratio(const V3d& d, uint32_t seed) const
     {
         constexpr int side = 8, rays = 250;
@@ -43,7 +47,8 @@ protected:
             Sampler sampler(seed, static_cast<uint32_t>(patch), 0, 0);
             double open = 0;
             for (int i = 0; i < rays; ++i) {
-                const double x = (patch % side + sampler.next()) / side - 0.5, y = (patch / side + sampler.next()) / side - 0.5;
+                const double x = (patch % side + sampler.next()) / side - 0.5,
+                             y = (patch / side + sampler.next()) / side - 0.5;
                 const V3d o = frame.to_world({0.9 * x, 0.9 * y, -1.5});
                 open += !tracer_->occluded(o, d, 3, {}, ~0u);
                 const double b2 = 0.81 * (x * x + y * y), r = 1 - radius_;
@@ -58,7 +63,8 @@ protected:
         return {mean / truth, error / truth};
     }
 
-    /// Some forty directions of one kind: their mean ratio must be 1 within 4 standard errors, and none may stand out by 5.
+    /// Some forty directions of one kind: their mean ratio must be 1 within 4 standard errors, and none may stand out
+    /// by 5.
     void expect_dim(const std::vector<V3d>& directions, const char* what) const
     {
         double mean = 0, variance = 0;
@@ -97,7 +103,8 @@ TEST_F(FillTransmittance, AlongRandomDirections)
     expect_dim(directions, "random directions");
 }
 
-// What the rotation is for, and the power of the tests above: along its own axes the lattice shows (boundary spheres repeat).
+// What the rotation is for, and the power of the tests above: along its own axes the lattice shows (boundary spheres
+// repeat).
 TEST_F(FillTransmittance, AlongTheLatticeItselfMore)
 {
     double mean = 0;

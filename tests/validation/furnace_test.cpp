@@ -1,5 +1,5 @@
-// The white furnace: lossless grains in a constant surrounding of radiance 1 are invisible, whatever their shape, roughness
-// and overlap, and however long the paths. Every slip of a weight (n^2, Fresnel, roulette) shows here.
+// The white furnace: lossless grains in a constant surrounding of radiance 1 are invisible, whatever their shape,
+// roughness and overlap, and however long the paths. Every slip of a weight (n^2, Fresnel, roulette) shows here.
 
 #include "render/integrators/path_tracer.h"
 #include "tests/builders/scenes.h"
@@ -32,7 +32,8 @@ Furnace run_furnace(const TestScene& scene, uint32_t paths, const PathOptions& o
         const double z = 2 * sampler.next() - 1, phi = 2 * pi * sampler.next(), r = std::sqrt(1 - z * z);
         const V3d o = 3.0 * V3d(r * std::cos(phi), r * std::sin(phi), z);
         const V3d target(sampler.next() - 0.5, sampler.next() - 0.5, sampler.next() - 0.5);
-        const PathResult path = trace_path(scene.world(), scene.tracer(), o, (target - o).normalized(), sampler, options);
+        const PathResult path =
+            trace_path(scene.world(), scene.tracer(), o, (target - o).normalized(), sampler, options);
         values[p] = path.radiance.x;
         const std::lock_guard lock(mutex);
         total.segments += path.segments;
@@ -47,12 +48,14 @@ Furnace run_furnace(const TestScene& scene, uint32_t paths, const PathOptions& o
 void expect_white(const Furnace& f, const std::string& name)
 {
     EXPECT_EQ(f.non_finite, 0u) << name;
-    EXPECT_LT(std::abs(f.radiance.z(1)), 4) << name << ": " << f.radiance.mean() << " +- " << f.radiance.standard_error();
+    EXPECT_LT(std::abs(f.radiance.z(1)), 4)
+        << name << ": " << f.radiance.mean() << " +- " << f.radiance.standard_error();
     EXPECT_NEAR(f.radiance.mean(), 1, 0.001) << name;
     testing::Test::RecordProperty(name + " longest path", std::to_string(f.longest));
-    std::printf("%-34s mean %.7f +- %.1e, %.0f segments a path, longest %u, %llu lost of %llu segments\n", name.c_str(), f.radiance.mean(),
-                f.radiance.count() > 1 ? f.radiance.standard_error() : 0.0, static_cast<double>(f.segments) / static_cast<double>(f.radiance.count()),
-                f.longest, static_cast<unsigned long long>(f.leaks), static_cast<unsigned long long>(f.segments));
+    std::printf("%-34s mean %.7f +- %.1e, %.0f segments a path, longest %u, %llu lost of %llu segments\n", name.c_str(),
+                f.radiance.mean(), f.radiance.count() > 1 ? f.radiance.standard_error() : 0.0,
+                static_cast<double>(f.segments) / static_cast<double>(f.radiance.count()), f.longest,
+                static_cast<unsigned long long>(f.leaks), static_cast<unsigned long long>(f.segments));
 }
 
 /// 20,000 grains of radii 0.5..1 that overlap by up to 9 % of the smaller radius.
@@ -85,8 +88,9 @@ TEST_P(GrainFurnace, IsWhite)
 {
     const FurnaceCase& c = GetParam();
     TestScene scene;
-    const uint32_t type = c.mesh_level == 99 ? scene.add_type(c.material, cube())
-                          : c.mesh_level >= 0 ? scene.add_type(c.material, icosphere(c.mesh_level)) : scene.add_type(c.material);
+    const uint32_t type = c.mesh_level == 99  ? scene.add_type(c.material, cube())
+                          : c.mesh_level >= 0 ? scene.add_type(c.material, icosphere(c.mesh_level))
+                                              : scene.add_type(c.material);
     scene.add_grains(bed(), type);
     scene.add_constant_light(1);
     scene.build();
@@ -95,12 +99,17 @@ TEST_P(GrainFurnace, IsWhite)
     EXPECT_LT(static_cast<double>(f.leaks), 1e-4 * static_cast<double>(f.segments));
 }
 
-INSTANTIATE_TEST_SUITE_P(Types, GrainFurnace, testing::Values(
-    FurnaceCase{"smooth glass spheres", dielectric(1.5), -1, 20000}, FurnaceCase{"rough glass spheres", dielectric(1.5, 0.3), -1, 4000},
-    FurnaceCase{"smooth glass mesh", dielectric(1.5), 3, 4000}, FurnaceCase{"rough glass mesh", dielectric(1.5, 0.3), 2, 2000},
-    FurnaceCase{"glass cubes", dielectric(1.5), 99, 2000}, FurnaceCase{"dense glass 4", dielectric(4), -1, 2000},
-    FurnaceCase{"thin glass 1.0001", dielectric(1.0001), -1, 2000}, FurnaceCase{"bubbles in water 0.75", dielectric(0.75), -1, 2000},
-    FurnaceCase{"white spheres", lambert(1), -1, 2000}, FurnaceCase{"white mesh", lambert(1), 2, 2000}));
+INSTANTIATE_TEST_SUITE_P(Types, GrainFurnace,
+                         testing::Values(FurnaceCase{"smooth glass spheres", dielectric(1.5), -1, 20000},
+                                         FurnaceCase{"rough glass spheres", dielectric(1.5, 0.3), -1, 4000},
+                                         FurnaceCase{"smooth glass mesh", dielectric(1.5), 3, 4000},
+                                         FurnaceCase{"rough glass mesh", dielectric(1.5, 0.3), 2, 2000},
+                                         FurnaceCase{"glass cubes", dielectric(1.5), 99, 2000},
+                                         FurnaceCase{"dense glass 4", dielectric(4), -1, 2000},
+                                         FurnaceCase{"thin glass 1.0001", dielectric(1.0001), -1, 2000},
+                                         FurnaceCase{"bubbles in water 0.75", dielectric(0.75), -1, 2000},
+                                         FurnaceCase{"white spheres", lambert(1), -1, 2000},
+                                         FurnaceCase{"white mesh", lambert(1), 2, 2000}));
 
 Light white_environment()
 {
@@ -124,7 +133,8 @@ TEST(SampledFurnace, RoughGrainsAreWhiteByEveryStrategy)
         const Furnace f = run_furnace(scene, 8000, options);
         EXPECT_LT(std::abs(f.radiance.z(1)), 4) << f.radiance.mean() << " +- " << f.radiance.standard_error();
         EXPECT_LT(f.radiance.standard_error(), strategy == DirectLight::lights_only ? 0.06 : 0.01);
-        std::printf("strategy %d: %.5f +- %.5f\n", static_cast<int>(strategy), f.radiance.mean(), f.radiance.standard_error());
+        std::printf("strategy %d: %.5f +- %.5f\n", static_cast<int>(strategy), f.radiance.mean(),
+                    f.radiance.standard_error());
     }
 }
 

@@ -1,10 +1,11 @@
-// A medium in the place of grains: what it is made of, that no light is lost between the two, and that pictures stay the same.
+// A medium in the place of grains: what it is made of, that no light is lost between the two, and that pictures stay
+// the same.
 
-#include "mixtures/checkerboard_mixture.h"
-#include "render/integrators/path_tracer.h"
-#include "render/equivalent/walk_bed.h"
-#include "render/build/grain_medium.h"
 #include "base/warp.h"
+#include "mixtures/checkerboard_mixture.h"
+#include "render/build/grain_medium.h"
+#include "render/equivalent/walk_bed.h"
+#include "render/integrators/path_tracer.h"
 #include "tests/builders/grain_beds.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
@@ -44,7 +45,9 @@ TEST(PackingSample, SharesKeepSumsOfPowersOfTheRadius)
     for (const GrainShare& share : shares_of(sample, table)) {
         EXPECT_GT(share.radius, 0);
         ASSERT_TRUE(share.albedo);
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR(share.albedo->weight[c], grain_albedo(*share.gsdf, share.material, share.radius).weight[c], 1e-3);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(share.albedo->weight[c], grain_albedo(*share.gsdf, share.material, share.radius).weight[c],
+                        1e-3);
         for (size_t k = 2; k < 5; ++k) kept[k] += share.number * std::pow(share.radius, static_cast<double>(k));
     }
     for (size_t k = 2; k < 5; ++k) EXPECT_NEAR(kept[k] / sums[k], 1, 1e-12) << k;
@@ -56,14 +59,16 @@ TEST(WalkLike, FindsTheFormulaInAThinMixtureOfTypesAndSizes)
     scene.set_gsdf(scene.add_type(dielectric(1.5)), gsdf_of(dielectric(1.5)));
     scene.set_gsdf(scene.add_type(lambert(0.8f)), gsdf_of(lambert(0.8f)));
     PackingSample sample;
-    for (uint64_t i = 0; i < 1000; ++i) sample.grains.push_back({i, i % 4 == 0 ? 2.0 : 1.0, static_cast<uint8_t>(i % 4 != 0)});
+    for (uint64_t i = 0; i < 1000; ++i)
+        sample.grains.push_back({i, i % 4 == 0 ? 2.0 : 1.0, static_cast<uint8_t>(i % 4 != 0)});
     sample.pack_rate = 0.01;
     const MomentTable table(scene.world().types, sample);
     const MixtureMoments moments = mixture_moments(shares_of(sample, table), sample.pack_rate);
     const PackingWalk walk = walk_like(scene.world(), sample, {}).walk;
     const auto expect_near = [](const Measured& found, double formula, const std::string& what) {
         // At 1 % of the volume grains still hide each other a little: 1 %.
-        EXPECT_LT(std::abs(found.value - formula), 4 * found.error + 0.01 * std::abs(formula)) << what << ": " << found.value << " +- " << found.error << ", by formula " << formula;
+        EXPECT_LT(std::abs(found.value - formula), 4 * found.error + 0.01 * std::abs(formula))
+            << what << ": " << found.value << " +- " << found.error << ", by formula " << formula;
         std::printf("%-20s %.4f +- %.4f, by formula %.4f\n", what.c_str(), found.value, found.error, formula);
     };
     expect_near(walk.void_flight, moments.void_flight, "void flight");
@@ -79,7 +84,9 @@ struct Cored {
     std::unique_ptr<Tracer> tracer;
     std::vector<PartReport> parts;
 
-    Cored(const TestScene& scene, double depth, EquivalentForm form = EquivalentForm::formula, std::optional<StfForm> shells = {}) : world(scene.world())
+    Cored(const TestScene& scene, double depth, EquivalentForm form = EquivalentForm::formula,
+          std::optional<StfForm> shells = {})
+        : world(scene.world())
     {
         std::vector<std::string> remarks;
         const auto medium = make_grain_medium(world, form, {});
@@ -114,13 +121,15 @@ TEST(GrainMediumFurnace, IsWhite)
         scene->set_gsdf(glass, scene == &constant ? gsdf_of(dielectric(1.5)) : constant.world().types[glass].gsdf);
         scene->set_gsdf(white, scene == &constant ? gsdf_of(lambert(1)) : constant.world().types[white].gsdf);
         uint64_t i = 0;
-        for (const PackedSphere& s : push_apart(4000, 0.6, 0.5, 0.05, 5)) scene->add_grain(s.center, s.radius, i++ % 2 ? glass : white);
+        for (const PackedSphere& s : push_apart(4000, 0.6, 0.5, 0.05, 5))
+            scene->add_grain(s.center, s.radius, i++ % 2 ? glass : white);
     }
     constant.add_constant_light(1);
     sampled.add_white_environment();
     constant.build();
     sampled.build();
-    const Cored dark(constant, 2, EquivalentForm::formula, StfForm::full), bright(sampled, 2, EquivalentForm::formula, StfForm::full);
+    const Cored dark(constant, 2, EquivalentForm::formula, StfForm::full),
+        bright(sampled, 2, EquivalentForm::formula, StfForm::full);
     ASSERT_EQ(dark.world.regions.size(), 1u);
     EXPECT_NE(dark.world.regions[0].grid, nullptr); // of a list it varies
     for (const uint32_t explicit_grains : {0u, all_grains}) {
@@ -135,12 +144,15 @@ TEST(GrainMediumFurnace, IsWhite)
         const Estimate plain = shine_in(dark.world, *dark.tracer, 3000, options, 17);
         EXPECT_NEAR(plain.mean(), 1, 1e-5) << explicit_grains;
         for (const DirectLight strategy : {DirectLight::both, DirectLight::lights_only, DirectLight::scattering_only}) {
-            if (explicit_grains == all_grains && strategy == DirectLight::lights_only) continue; // nothing that smooth glass could sample
+            if (explicit_grains == all_grains && strategy == DirectLight::lights_only)
+                continue; // nothing that smooth glass could sample
             options.direct_light = strategy;
-            // Of light that is only sampled a few paths bring most: with fewer of them the standard error would not be known.
+            // Of light that is only sampled a few paths bring most: with fewer of them the standard error would not be
+            // known.
             const uint32_t paths = strategy == DirectLight::lights_only ? 400000 : 20000;
             const Estimate e = shine_in(bright.world, *bright.tracer, paths, options, 18);
-            EXPECT_LT(std::abs(e.z(1)), 4) << explicit_grains << " as they are, strategy " << static_cast<int>(strategy) << ": " << e.mean() << " +- " << e.standard_error();
+            EXPECT_LT(std::abs(e.z(1)), 4) << explicit_grains << " as they are, strategy " << static_cast<int>(strategy)
+                                           << ": " << e.mean() << " +- " << e.standard_error();
             std::printf("strategy %d: %.5f +- %.5f\n", static_cast<int>(strategy), e.mean(), e.standard_error());
         }
     }
@@ -156,10 +168,12 @@ TEST(GrainMedium, LeavesPicturesOfBedsAsTheyAre)
         ASSERT_EQ(cored.world.regions.size(), 1u) << grain.name;
         PathOptions options;
         options.explicit_grains = 0;
-        const Estimate all = shine_in(bed->world(), bed->tracer(), 60000, options, 1), some = shine_in(cored.world, *cored.tracer, 60000, options, 2);
+        const Estimate all = shine_in(bed->world(), bed->tracer(), 60000, options, 1),
+                       some = shine_in(cored.world, *cored.tracer, 60000, options, 2);
         const double error = std::hypot(all.standard_error(), some.standard_error());
         EXPECT_LT(std::abs(some.mean() - all.mean()), 0.01 * all.mean() + 4 * error) << grain.name;
-        std::printf("%-20s all grains %.5f, medium below 4 r %+.2f %% +- %.2f\n", grain.name.c_str(), all.mean(), 100 * (some.mean() / all.mean() - 1), 100 * error / all.mean());
+        std::printf("%-20s all grains %.5f, medium below 4 r %+.2f %% +- %.2f\n", grain.name.c_str(), all.mean(),
+                    100 * (some.mean() / all.mean() - 1), 100 * error / all.mean());
     }
 }
 
@@ -169,12 +183,15 @@ TEST(GrainMedium, OfAFillVariesAsItsMixtureDoes)
         World world;
         TriangleMesh mesh = cube();
         for (V3d& p : mesh.positions) p *= 40;
-        const auto fill = std::make_shared<ProceduralFill>(std::make_shared<const Domain>(mesh, "cube"), sphere_tile(0.5, 500), FillOptions{1, 0});
+        const auto fill = std::make_shared<ProceduralFill>(std::make_shared<const Domain>(mesh, "cube"),
+                                                           sphere_tile(0.5, 500), FillOptions{1, 0});
         CheckerboardMixture::Board board;
         board.cell = Imath::V3d(patterned ? 40 : 1e9);
         board.offset = Imath::V3d(patterned ? 0 : -5e8);
-        world.types = {{"glass", dielectric(1.5), nullptr, gsdf_of(dielectric(1.5))}, {"white", lambert(0.5f), nullptr, gsdf_of(lambert(0.5f))}};
-        world.fill = std::make_shared<GrainFill>(fill, std::make_shared<CheckerboardMixture>(board, std::vector<uint32_t>{0, 1}, V3d(0)), world.space);
+        world.types = {{"glass", dielectric(1.5), nullptr, gsdf_of(dielectric(1.5))},
+                       {"white", lambert(0.5f), nullptr, gsdf_of(lambert(0.5f))}};
+        world.fill = std::make_shared<GrainFill>(
+            fill, std::make_shared<CheckerboardMixture>(board, std::vector<uint32_t>{0, 1}, V3d(0)), world.space);
         world.domain = fill->domain().bounds();
         std::vector<PartReport> parts;
         std::vector<std::string> remarks;

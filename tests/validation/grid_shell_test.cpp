@@ -26,7 +26,8 @@ template <class Fill>
 Found look(const Fill& fill, const Light& light, bool nearest, bool shells, uint32_t paths)
 {
     openvdb::initialize();
-    const auto density = openvdb::FloatGrid::create(0), albedo = openvdb::FloatGrid::create(0), g = openvdb::FloatGrid::create(0);
+    const auto density = openvdb::FloatGrid::create(0), albedo = openvdb::FloatGrid::create(0),
+               g = openvdb::FloatGrid::create(0);
     for (int x = -n - 2; x <= n + 2; ++x) {
         for (int y = -n - 2; y <= n + 2; ++y) {
             for (int z = -n - 2; z <= n + 2; ++z) {
@@ -66,8 +67,10 @@ uint64_t expect_equal(const Fill& fill, const Light& light, bool nearest, double
 {
     const Found truth = look(fill, light, nearest, false, 25'000), found = look(fill, light, nearest, true, 40'000);
     const Estimate &a = found.radiance, &b = truth.radiance;
-    EXPECT_LT(std::abs(a.mean() - b.mean()), 4 * std::hypot(a.standard_error(), b.standard_error()) + off * b.mean()) << what;
-    std::printf("%-32s %.5f +- %.5f, through shells %.5f +- %.5f, %.1f shells a path\n", what, b.mean(), b.standard_error(), a.mean(), a.standard_error(), 1e-3 * static_cast<double>(found.shells));
+    EXPECT_LT(std::abs(a.mean() - b.mean()), 4 * std::hypot(a.standard_error(), b.standard_error()) + off * b.mean())
+        << what;
+    std::printf("%-32s %.5f +- %.5f, through shells %.5f +- %.5f, %.1f shells a path\n", what, b.mean(),
+                b.standard_error(), a.mean(), a.standard_error(), 1e-3 * static_cast<double>(found.shells));
     return found.shells;
 }
 
@@ -102,8 +105,8 @@ TEST(GridShells, FollowDensityAndAlbedoAndAsymmetry)
     EXPECT_GT(expect_equal(fill, bright_top(), false, 0.01, "a density that grows"), 3000u); // more than three a path
 }
 
-// Boards of 1.9 and 0.1 times a density of 64 a unit, their fields 12 and 49 mean free paths wide in the denser. Taken for their means, as once they were, they came out
-// 6 % and 3 % off; 5 % shows. Shells fit only within the fields.
+// Boards of 1.9 and 0.1 times a density of 64 a unit, their fields 12 and 49 mean free paths wide in the denser. Taken
+// for their means, as once they were, they came out 6 % and 3 % off; 5 % shows. Shells fit only within the fields.
 TEST(GridShells, SeeACheckerboard)
 {
     for (const bool nearest : {false, true}) {
@@ -124,11 +127,13 @@ TEST(GridShells, DoNotSeeThinFields)
     EXPECT_GT(expect_equal(fill, bright_top(), false, 0.005, "fine and thin fields"), 300u);
 }
 
-// Dense within thin: light comes from much nearer than the face of the cube would be at the ball's density, or voxels at half of theirs.
+// Dense within thin: light comes from much nearer than the face of the cube would be at the ball's density, or voxels
+// at half of theirs.
 TEST(GridShells, FindTheSunThroughThinSurroundings)
 {
     const auto fill = [](int x, int y, int z) { return Voxel{x * x + y * y + z * z < n * n / 16 ? 240.f : 0.05f}; };
-    for (const bool nearest : {false, true}) EXPECT_GT(expect_equal(fill, sun(), nearest, 0.005, nearest ? "a ball of voxels" : "a dense ball"), 300u);
+    for (const bool nearest : {false, true})
+        EXPECT_GT(expect_equal(fill, sun(), nearest, 0.005, nearest ? "a ball of voxels" : "a dense ball"), 300u);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-// Homogeneous media against exact solutions of the transport equation (van de Hulst 1980, Multiple Light Scattering), and
-// against themselves where the answer does not depend on how light is found or on the unit of length.
+// Homogeneous media against exact solutions of the transport equation (van de Hulst 1980, Multiple Light Scattering),
+// and against themselves where the answer does not depend on how light is found or on the unit of length.
 
 #include "render/integrators/path_tracer.h"
 #include "tests/builders/scenes.h"
@@ -18,7 +18,8 @@ void expect_truth(const Estimate& estimate, double truth, const std::string& wha
 {
     EXPECT_LT(std::abs(estimate.mean() - truth), 4 * estimate.standard_error() + systematic * truth)
         << what << ": " << estimate.mean() << " +- " << estimate.standard_error() << ", exactly " << truth;
-    std::printf("%-40s %.5f +- %.5f, exactly %.5f (%+.2f %%)\n", what.c_str(), estimate.mean(), estimate.standard_error(), truth, 100 * (estimate.mean() / truth - 1));
+    std::printf("%-40s %.5f +- %.5f, exactly %.5f (%+.2f %%)\n", what.c_str(), estimate.mean(),
+                estimate.standard_error(), truth, 100 * (estimate.mean() / truth - 1));
 }
 
 constexpr uint32_t paths = 400000;
@@ -49,7 +50,9 @@ TEST(Slab, DoesNotKnowTheUnitOfLength)
     const ReflectedAndPassed large = shine(*slab(2 * scale, V3d(1 / scale), Color(0.9f), 0.75), 2000, 0.8, 7);
     EXPECT_EQ(one.up[0].mean(), large.up[0].mean());
     EXPECT_EQ(one.down[0].mean(), large.down[0].mean());
-    for (const double unit : {1e-6, 1e6}) expect_truth(shine(*slab(2 * unit, V3d(1 / unit), Color(0.9f), 0.75), paths, 1, 8).down[0], 0.66096, "slab in another unit: T");
+    for (const double unit : {1e-6, 1e6})
+        expect_truth(shine(*slab(2 * unit, V3d(1 / unit), Color(0.9f), 0.75), paths, 1, 8).down[0], 0.66096,
+                     "slab in another unit: T");
 }
 
 TEST(Slab, IsTheSameAsAGrid)
@@ -61,7 +64,8 @@ TEST(Slab, IsTheSameAsAGrid)
         expect_truth(sum.down[0], 0.66096, "grid, g 0.75, albedo 0.9, tau 2: T");
     }
     const GridSlab thick(10, 1, 1, 0, 1);
-    expect_truth(shine(thick.world, *thick.tracer, 10, paths / 4, 1, 22).down[0], 0.14700, "grid, g 0, albedo 1, tau 10: T");
+    expect_truth(shine(thick.world, *thick.tracer, 10, paths / 4, 1, 22).down[0], 0.14700,
+                 "grid, g 0, albedo 1, tau 10: T");
 }
 
 TEST(Slab, IsTheSumOfTwoThatTouch)
@@ -73,7 +77,8 @@ TEST(Slab, IsTheSumOfTwoThatTouch)
             scene.add_medium(box_mesh({-wide, -wide, -2}, {wide, wide, -1}), V3d(1), Color(0.9f), 0.75);
             scene.add_medium(box_mesh({-wide, -wide, -1}, {wide, wide, 0}), V3d(1), Color(0.9f), 0.75);
         } else {
-            for (const double sigma_t : {0.25, 0.75}) scene.add_medium(box_mesh({-wide, -wide, -2}, {wide, wide, 0}), V3d(sigma_t), Color(0.9f), 0.75);
+            for (const double sigma_t : {0.25, 0.75})
+                scene.add_medium(box_mesh({-wide, -wide, -2}, {wide, wide, 0}), V3d(sigma_t), Color(0.9f), 0.75);
         }
         scene.add_constant_light(1);
         scene.build();
@@ -88,10 +93,16 @@ TEST(Slab, ChannelsThatSeeItDifferentlyAreEachRight)
     // tau 2, 10 and 0.1; single channels are known from the above or by a walk of their own.
     const ReflectedAndPassed all = shine(*slab(1, V3d(2, 10, 0.1), Color(0.9f, 1, 0.9f), 0), paths, 1, 9);
     for (int c = 0; c < 3; ++c) {
-        const ReflectedAndPassed own = shine(*slab(1, V3d(c == 0 ? 2 : c == 1 ? 10 : 0.1), Color(c == 1 ? 1 : 0.9f), 0), paths, 1, 10);
+        const ReflectedAndPassed own = shine(*slab(1,
+                                                   V3d(c == 0   ? 2
+                                                       : c == 1 ? 10
+                                                                : 0.1),
+                                                   Color(c == 1 ? 1 : 0.9f), 0),
+                                             paths, 1, 10);
         for (const bool up : {false, true}) {
             const Estimate &a = up ? all.up[c] : all.down[c], &b = up ? own.up[0] : own.down[0];
-            EXPECT_LT(std::abs(a.mean() - b.mean()), 4 * std::hypot(a.standard_error(), b.standard_error())) << c << " " << up << ": " << a.mean() << " " << b.mean();
+            EXPECT_LT(std::abs(a.mean() - b.mean()), 4 * std::hypot(a.standard_error(), b.standard_error()))
+                << c << " " << up << ": " << a.mean() << " " << b.mean();
         }
     }
 }
@@ -128,7 +139,8 @@ TEST(MediumFurnace, IsWhiteAfterAHundredThousandScatterings)
     Estimate events;
     for (uint32_t p = 0; p < 50; ++p) {
         Sampler sampler(3, p, 0, 0);
-        const PathResult result = trace_path(scene.world(), scene.tracer(), V3d(0), V3d(0.1, 0, 1).normalized(), sampler, {});
+        const PathResult result =
+            trace_path(scene.world(), scene.tracer(), V3d(0), V3d(0.1, 0, 1).normalized(), sampler, {});
         EXPECT_EQ(result.radiance.x, 1);
         EXPECT_EQ(result.leaks, 0u);
         events.add(result.events);
@@ -153,8 +165,10 @@ void expect_white(const Add& add, const std::string& what)
         PathOptions options;
         options.direct_light = strategy;
         const Estimate e = from_all_around(sampled.world(), sampled.tracer(), 100000, 4, options, 6);
-        EXPECT_LT(std::abs(e.z(1)), 4) << what << ", strategy " << static_cast<int>(strategy) << ": " << e.mean() << " +- " << e.standard_error();
-        std::printf("%s, strategy %d: %.5f +- %.5f\n", what.c_str(), static_cast<int>(strategy), e.mean(), e.standard_error());
+        EXPECT_LT(std::abs(e.z(1)), 4) << what << ", strategy " << static_cast<int>(strategy) << ": " << e.mean()
+                                       << " +- " << e.standard_error();
+        std::printf("%s, strategy %d: %.5f +- %.5f\n", what.c_str(), static_cast<int>(strategy), e.mean(),
+                    e.standard_error());
     }
 }
 
@@ -173,17 +187,22 @@ void add_everything(TestScene& scene)
     scene.add_medium(ball, V3d(5), Color(1), -0.3);
 }
 
-TEST(MediumFurnace, IsWhiteWithGrainsAndSurfacesAndMediaInEachOther) { expect_white(add_everything, "all in each other"); }
+TEST(MediumFurnace, IsWhiteWithGrainsAndSurfacesAndMediaInEachOther)
+{
+    expect_white(add_everything, "all in each other");
+}
 
 TEST(MediumFurnace, IsWhiteWhereFacesCoincide)
 {
     // On a white floor, under a glass box of the same size, and against another medium.
-    expect_white([](TestScene& scene) {
-        scene.add_medium(box_mesh({-1, -1, 0}, {0, 1, 1}), V3d(4), Color(1), 0.5);
-        scene.add_medium(box_mesh({0, -1, 0}, {1, 1, 1}), V3d(9), Color(1), -0.2);
-        scene.add_surface(ground(3, 0), lambert(1));
-        scene.add_surface(box_mesh({0, -1, 0}, {1, 1, 1}), dielectric(1.3));
-    }, "faces coincide");
+    expect_white(
+        [](TestScene& scene) {
+            scene.add_medium(box_mesh({-1, -1, 0}, {0, 1, 1}), V3d(4), Color(1), 0.5);
+            scene.add_medium(box_mesh({0, -1, 0}, {1, 1, 1}), V3d(9), Color(1), -0.2);
+            scene.add_surface(ground(3, 0), lambert(1));
+            scene.add_surface(box_mesh({0, -1, 0}, {1, 1, 1}), dielectric(1.3));
+        },
+        "faces coincide");
 }
 
 TEST(MediumLight, StrategiesAgree)
@@ -198,10 +217,12 @@ TEST(MediumLight, StrategiesAgree)
         PathOptions options;
         options.direct_light = strategy;
         found.push_back(from_all_around(scene.world(), scene.tracer(), 200000, 4, options, 3 + found.size()));
-        std::printf("strategy %d: %.5f +- %.5f\n", static_cast<int>(strategy), found.back().mean(), found.back().standard_error());
+        std::printf("strategy %d: %.5f +- %.5f\n", static_cast<int>(strategy), found.back().mean(),
+                    found.back().standard_error());
     }
     for (size_t i = 1; i < 3; ++i) {
-        EXPECT_LT(std::abs(found[0].mean() - found[i].mean()), 4 * std::hypot(found[0].standard_error(), found[i].standard_error()));
+        EXPECT_LT(std::abs(found[0].mean() - found[i].mean()),
+                  4 * std::hypot(found[0].standard_error(), found[i].standard_error()));
     }
 }
 

@@ -1,4 +1,5 @@
-// Packed beds: mean radiance by proxies against grains as they are, within 1 % (blue, where the tea-coloured glass absorbs most).
+// Packed beds: mean radiance by proxies against grains as they are, within 1 % (blue, where the tea-coloured glass
+// absorbs most).
 
 #include "tests/builders/grain_beds.h"
 
@@ -10,7 +11,8 @@ namespace {
 void compare(const BedGrain& grain, double fraction, const std::string& name)
 {
     const auto bed = make_bed(grain, fraction, 1500);
-    const Estimate as_is = bed_radiance(*bed, 60000, all_grains, 1), proxies = bed_radiance(*bed, 60000, 0, 2), first = bed_radiance(*bed, 60000, 1, 3);
+    const Estimate as_is = bed_radiance(*bed, 60000, all_grains, 1), proxies = bed_radiance(*bed, 60000, 0, 2),
+                   first = bed_radiance(*bed, 60000, 1, 3);
     for (const auto& [estimate, what] : {std::pair{proxies, "proxies"}, std::pair{first, "one as it is"}}) {
         const double error = std::hypot(as_is.standard_error(), estimate.standard_error());
         // 60,000 paths leave a standard error of 0.4 to 0.8 % of the mean.

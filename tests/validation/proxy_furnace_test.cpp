@@ -1,7 +1,8 @@
-// The white furnace with proxies: lossless grains are invisible in a constant surrounding, whichever strategy finds the light.
+// The white furnace with proxies: lossless grains are invisible in a constant surrounding, whichever strategy finds the
+// light.
 
-#include "render/integrators/path_tracer.h"
 #include "base/warp.h"
+#include "render/integrators/path_tracer.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/statistics.h"
@@ -28,7 +29,8 @@ Estimate shine_in(const TestScene& scene, uint32_t paths, const PathOptions& opt
         const double u1 = sampler.next(), u2 = sampler.next();
         const V3d o = 3.0 * sample_sphere(u1, u2);
         const V3d target(sampler.next() - 0.5, sampler.next() - 0.5, sampler.next() - 0.5);
-        values[p] = trace_path(scene.world(), scene.tracer(), o, (target - o).normalized(), sampler, options).radiance.x;
+        values[p] =
+            trace_path(scene.world(), scene.tracer(), o, (target - o).normalized(), sampler, options).radiance.x;
     });
     Estimate radiance;
     for (const double value : values) radiance.add(value);
@@ -50,10 +52,13 @@ TEST_P(ProxyFurnace, IsWhite)
     const ProxyCase& c = GetParam();
     TestScene constant, sampled;
     for (TestScene* scene : {&constant, &sampled}) {
-        const uint32_t type = c.mesh_level == 99 ? scene->add_type(c.material, cube())
-                              : c.mesh_level >= 0 ? scene->add_type(c.material, icosphere(c.mesh_level)) : scene->add_type(c.material);
-        if (scene == &constant) scene->add_proxies({0.1});
-        else scene->set_gsdf(type, constant.world().types[0].gsdf);
+        const uint32_t type = c.mesh_level == 99  ? scene->add_type(c.material, cube())
+                              : c.mesh_level >= 0 ? scene->add_type(c.material, icosphere(c.mesh_level))
+                                                  : scene->add_type(c.material);
+        if (scene == &constant)
+            scene->add_proxies({0.1});
+        else
+            scene->set_gsdf(type, constant.world().types[0].gsdf);
         EXPECT_EQ(scene->world().types[type].gsdf->data().quality.lost, 0u);
         scene->add_grains(bed(), type);
     }
@@ -69,16 +74,21 @@ TEST_P(ProxyFurnace, IsWhite)
         for (const DirectLight strategy : {DirectLight::both, DirectLight::lights_only, DirectLight::scattering_only}) {
             options.direct_light = strategy;
             const Estimate e = shine_in(sampled, 20000, options);
-            EXPECT_LT(std::abs(e.z(1)), 4) << c.name << ", " << explicit_grains << " grains as they are: " << e.mean() << " +- " << e.standard_error();
-            std::printf("%-20s %u as they are, strategy %d: %.5f +- %.5f\n", c.name.c_str(), explicit_grains, static_cast<int>(strategy), e.mean(), e.standard_error());
+            EXPECT_LT(std::abs(e.z(1)), 4) << c.name << ", " << explicit_grains << " grains as they are: " << e.mean()
+                                           << " +- " << e.standard_error();
+            std::printf("%-20s %u as they are, strategy %d: %.5f +- %.5f\n", c.name.c_str(), explicit_grains,
+                        static_cast<int>(strategy), e.mean(), e.standard_error());
         }
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Types, ProxyFurnace, testing::Values(
-    ProxyCase{"glass spheres", dielectric(1.5), -1}, ProxyCase{"rough glass spheres", dielectric(1.5, 0.3), -1},
-    ProxyCase{"glass mesh", dielectric(1.5), 1}, ProxyCase{"glass cubes", dielectric(1.5), 99},
-    ProxyCase{"white spheres", lambert(1), -1}, ProxyCase{"white cubes", lambert(1), 99}));
+INSTANTIATE_TEST_SUITE_P(Types, ProxyFurnace,
+                         testing::Values(ProxyCase{"glass spheres", dielectric(1.5), -1},
+                                         ProxyCase{"rough glass spheres", dielectric(1.5, 0.3), -1},
+                                         ProxyCase{"glass mesh", dielectric(1.5), 1},
+                                         ProxyCase{"glass cubes", dielectric(1.5), 99},
+                                         ProxyCase{"white spheres", lambert(1), -1},
+                                         ProxyCase{"white cubes", lambert(1), 99}));
 
 } // namespace
 } // namespace scree

@@ -1,9 +1,9 @@
 // One grain, averaged over its rotations, under the sun: proxy path tracing against explicit path tracing.
 
-#include "render/gsdf/gsdf_builder.h"
-#include "render/grains/library/grain_library.h"
-#include "render/integrators/path_tracer.h"
 #include "base/warp.h"
+#include "render/grains/library/grain_library.h"
+#include "render/gsdf/gsdf_builder.h"
+#include "render/integrators/path_tracer.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/statistics.h"
 
@@ -25,13 +25,15 @@ Light sun(const V3d& towards, double degrees)
     light.kind = LightKind::distant;
     light.direction = towards;
     light.one_minus_cos = 2 * std::pow(std::sin(degrees * pi / 720), 2); // of half the angular diameter
-    light.radiance = Color(static_cast<float>(1 / (pi * light.one_minus_cos * (2 - light.one_minus_cos)))); // irradiance 1
+    light.radiance =
+        Color(static_cast<float>(1 / (pi * light.one_minus_cos * (2 - light.one_minus_cos)))); // irradiance 1
     return light;
 }
 
 /// A grain of a library type whose absorption at its natural size is the material's, alone under a light.
-std::unique_ptr<TestScene> grain_under(const Light& light, const LibraryGrain& grain, std::shared_ptr<const Exemplar> body,
-                                       std::shared_ptr<const Gsdf> gsdf, uint64_t id)
+std::unique_ptr<TestScene> grain_under(const Light& light, const LibraryGrain& grain,
+                                       std::shared_ptr<const Exemplar> body, std::shared_ptr<const Gsdf> gsdf,
+                                       uint64_t id)
 {
     auto scene = std::make_unique<TestScene>();
     Material material = grain.material;
@@ -47,7 +49,8 @@ std::unique_ptr<TestScene> grain_under(const Light& light, const LibraryGrain& g
 
 /// Traces `paths` camera rays along d over each grain's cross-section; each(grain, path) for every one.
 template <class Each>
-void look(const std::vector<std::unique_ptr<TestScene>>& scenes, const V3d& d, uint32_t paths, const PathOptions& options, uint64_t seed, const Each& each)
+void look(const std::vector<std::unique_ptr<TestScene>>& scenes, const V3d& d, uint32_t paths,
+          const PathOptions& options, uint64_t seed, const Each& each)
 {
     tbb::parallel_for(size_t{0}, scenes.size(), [&](size_t i) {
         flush_subnormals();
@@ -59,8 +62,9 @@ void look(const std::vector<std::unique_ptr<TestScene>>& scenes, const V3d& d, u
             const double u1 = sampler.next(), u2 = sampler.next();
             const V2d disk = r * sample_disk(u1, u2);
             trail.clear();
-            const PathResult path = trace_path(scenes[i]->world(), scenes[i]->tracer(), frame.s * disk.x + frame.t * disk.y - 4.0 * d, d, sampler,
-                                               options, &trail);
+            const PathResult path =
+                trace_path(scenes[i]->world(), scenes[i]->tracer(), frame.s * disk.x + frame.t * disk.y - 4.0 * d, d,
+                           sampler, options, &trail);
             each(i, path, trail.back());
         }
     });
@@ -73,7 +77,8 @@ Estimate over(const std::vector<double>& sums, uint32_t paths)
     return estimate;
 }
 
-/// Radiance under each of the suns. Without anything to sample them by, paths are counted by their last direction, over all suns at the same angle.
+/// Radiance under each of the suns. Without anything to sample them by, paths are counted by their last direction, over
+/// all suns at the same angle.
 std::array<Estimate, 5> radiance_as_is(const std::vector<std::unique_ptr<TestScene>>& scenes, uint32_t paths)
 {
     std::array<std::vector<double>, 5> sums;
@@ -83,7 +88,9 @@ std::array<Estimate, 5> radiance_as_is(const std::vector<std::unique_ptr<TestSce
         const double turned = std::atan2(last.d.cross(d).length(), last.d.dot(d)) * 180 / pi;
         for (size_t k = 0; k < angles.size(); ++k) {
             if (std::abs(turned - angles[k]) >= half_width) continue;
-            const double ring = 2 * pi * (std::cos((angles[k] - half_width) * pi / 180) - std::cos((angles[k] + half_width) * pi / 180));
+            const double ring =
+                2 * pi *
+                (std::cos((angles[k] - half_width) * pi / 180) - std::cos((angles[k] + half_width) * pi / 180));
             sums[k][grain] += path.radiance.y / ring;
         }
     });
@@ -99,15 +106,19 @@ TEST_P(GrainUnderSun, ProxyIsTheMeanGrain)
     const LibraryGrain& grain = *find_library_grain(GetParam());
     std::shared_ptr<const Exemplar> body;
     const auto device = std::make_shared<EmbreeDevice>();
-    if (grain.default_triangles > 0) body = std::make_shared<Exemplar>(*device, make_grain_shape(grain, {0, 2000, {}}, "test"), "test");
+    if (grain.default_triangles > 0)
+        body = std::make_shared<Exemplar>(*device, make_grain_shape(grain, {0, 2000, {}}, "test"), "test");
     const auto gsdf = build_gsdf({body.get(), grain.material}, {0.08});
-    // The hairball's fibres run through each other and, coarse as here, through themselves: there are pockets without a way out.
-    const double lost = static_cast<double>(gsdf->data().quality.lost) / static_cast<double>(gsdf->data().quality.paths);
+    // The hairball's fibres run through each other and, coarse as here, through themselves: there are pockets without a
+    // way out.
+    const double lost =
+        static_cast<double>(gsdf->data().quality.lost) / static_cast<double>(gsdf->data().quality.paths);
     EXPECT_LE(lost, grain.name == "hairball" ? 2e-3 : 0.0);
     Light sky;
     std::vector<std::unique_ptr<TestScene>> in_sky, under_sun;
     for (uint32_t i = 0; i < rotations; ++i) in_sky.push_back(grain_under(sky, grain, body, gsdf, i));
-    for (uint32_t i = 0; i < 16; ++i) under_sun.push_back(grain_under(sun(V3d(0, 0, 1), 2 * half_width), grain, body, gsdf, i));
+    for (uint32_t i = 0; i < 16; ++i)
+        under_sun.push_back(grain_under(sun(V3d(0, 0, 1), 2 * half_width), grain, body, gsdf, i));
     const auto as_is = radiance_as_is(in_sky, 1000);
     double worst = 0;
     for (size_t k = 0; k < angles.size(); ++k) {
@@ -117,16 +128,20 @@ TEST_P(GrainUnderSun, ProxyIsTheMeanGrain)
         options.explicit_grains = 0;
         constexpr uint32_t paths = 6000;
         std::vector<double> sums(under_sun.size());
-        look(under_sun, d, paths, options, 2, [&](size_t i, const PathResult& path, const PathVertex&) { sums[i] += path.radiance.y; });
+        look(under_sun, d, paths, options, 2,
+             [&](size_t i, const PathResult& path, const PathVertex&) { sums[i] += path.radiance.y; });
         const Estimate proxy = over(sums, paths);
         // The density of directions was itself counted, twice a path, in rows of the polar angle.
-        const double counts = 2 * static_cast<double>(gsdf->data().quality.paths) * proxy.mean() * 2 * pi * std::sin(a) * DirectionGrid::row_width;
-        const double error = std::hypot(as_is[k].standard_error(), proxy.standard_error(), proxy.mean() / std::sqrt(counts));
+        const double counts = 2 * static_cast<double>(gsdf->data().quality.paths) * proxy.mean() * 2 * pi *
+                              std::sin(a) * DirectionGrid::row_width;
+        const double error =
+            std::hypot(as_is[k].standard_error(), proxy.standard_error(), proxy.mean() / std::sqrt(counts));
         EXPECT_LT(std::abs(as_is[k].mean() - proxy.mean()), 4 * error) << grain.name << " at " << angles[k];
         const double difference = 100 * (proxy.mean() / as_is[k].mean() - 1);
         worst = std::max(worst, std::abs(difference));
-        std::printf("%-18s %3.0f deg: as it is %.5f +- %.5f, proxy %.5f, %+6.2f %% +- %.2f\n", grain.name.c_str(), angles[k], as_is[k].mean(),
-                    as_is[k].standard_error(), proxy.mean(), difference, 100 * error / as_is[k].mean());
+        std::printf("%-18s %3.0f deg: as it is %.5f +- %.5f, proxy %.5f, %+6.2f %% +- %.2f\n", grain.name.c_str(),
+                    angles[k], as_is[k].mean(), as_is[k].standard_error(), proxy.mean(), difference,
+                    100 * error / as_is[k].mean());
     }
     std::printf("%-18s worst %.2f %%\n", grain.name.c_str(), worst);
 }
@@ -138,7 +153,8 @@ std::vector<std::string> all_names()
     return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(Library, GrainUnderSun, testing::ValuesIn(all_names()), [](const auto& name) { return name.param; });
+INSTANTIATE_TEST_SUITE_P(Library, GrainUnderSun, testing::ValuesIn(all_names()),
+                         [](const auto& name) { return name.param; });
 
 } // namespace
 } // namespace scree

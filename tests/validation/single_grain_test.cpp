@@ -49,7 +49,8 @@ TEST(SingleGrain, DielectricMeanCosine)
         const Beam beam = shine(*one_grain(dielectric(ior)), 2000000);
         EXPECT_LT(beam.cosine.standard_error(), 5e-4);
         EXPECT_LT(std::abs(beam.cosine.z(truth)), 4) << beam.cosine.mean() << " +- " << beam.cosine.standard_error();
-        std::printf("ior %.2f: %.5f +- %.5f, truth %.5f\n", ior, beam.cosine.mean(), beam.cosine.standard_error(), truth);
+        std::printf("ior %.2f: %.5f +- %.5f, truth %.5f\n", ior, beam.cosine.mean(), beam.cosine.standard_error(),
+                    truth);
     }
 }
 
@@ -60,8 +61,8 @@ TEST(SingleGrain, LambertMeanCosine)
     std::printf("lambert: %.5f +- %.5f, truth %.5f\n", beam.cosine.mean(), beam.cosine.standard_error(), -4.0 / 9);
 }
 
-// A finely tessellated sphere scatters like the sphere: its facets tilt normals by up to an edge's half-angle, 0.5 degrees
-// at 81,920 triangles, and lose 1e-4 of the cross-section; the mean cosine moves by less than 1e-3.
+// A finely tessellated sphere scatters like the sphere: its facets tilt normals by up to an edge's half-angle, 0.5
+// degrees at 81,920 triangles, and lose 1e-4 of the cross-section; the mean cosine moves by less than 1e-3.
 TEST(SingleGrain, FineMeshScattersLikeTheSphere)
 {
     TestScene scene;
@@ -88,7 +89,8 @@ TEST(SingleGrain, BothInterfacesCount)
     scene.build();
     std::vector<PathVertex> trail;
     Sampler sampler(1, 0, 0, 0);
-    const PathResult path = trace_path(scene.world(), scene.tracer(), V3d(0.01, 0.02, -5), V3d(0, 0, 1), sampler, {}, &trail);
+    const PathResult path =
+        trace_path(scene.world(), scene.tracer(), V3d(0.01, 0.02, -5), V3d(0, 0, 1), sampler, {}, &trail);
     EXPECT_NEAR(path.radiance.x, 0.9604, 1e-6);
     EXPECT_EQ(trail.size(), 3u);
 }
@@ -111,8 +113,8 @@ TEST(SingleGrain, AbsorbsByItsSize)
     }
 }
 
-// A clear grain of radius 0.5 in a box of tea 2 wide, nothing refracts: the way through the middle absorbs over 1, however
-// the segments end.
+// A clear grain of radius 0.5 in a box of tea 2 wide, nothing refracts: the way through the middle absorbs over 1,
+// however the segments end.
 TEST(SingleGrain, SurroundingSurfaceAbsorbsOnTheWayInAndOut)
 {
     Material tea = dielectric(1);
@@ -126,7 +128,8 @@ TEST(SingleGrain, SurroundingSurfaceAbsorbsOnTheWayInAndOut)
     Estimate radiance; // roulette scatters it
     for (uint32_t i = 0; i < 20000; ++i) {
         Sampler sampler(1, i, 0, 0);
-        radiance.add(trace_path(scene.world(), scene.tracer(), scale * V3d(0.001, 0.0005, -5), V3d(0, 0, 1), sampler).radiance.x);
+        radiance.add(trace_path(scene.world(), scene.tracer(), scale * V3d(0.001, 0.0005, -5), V3d(0, 0, 1), sampler)
+                         .radiance.x);
     }
     EXPECT_LT(std::abs(radiance.z(std::exp(-0.5))), 4) << radiance.mean() << " +- " << radiance.standard_error();
     EXPECT_LT(radiance.standard_error(), 0.005);

@@ -1,4 +1,5 @@
-// Shell tracing against exact solutions of the transport equation, against walks from scattering to scattering, and in white furnaces.
+// Shell tracing against exact solutions of the transport equation, against walks from scattering to scattering, and in
+// white furnaces.
 
 #include "render/media/grid_medium_build.h"
 #include "tests/builders/shapes.h"
@@ -15,7 +16,8 @@ void expect_truth(const Estimate& estimate, double truth, const std::string& wha
 {
     EXPECT_LT(std::abs(estimate.mean() - truth), 4 * estimate.standard_error() + systematic * truth)
         << what << ": " << estimate.mean() << " +- " << estimate.standard_error() << ", exactly " << truth;
-    std::printf("%-44s %.5f +- %.5f, exactly %.5f (%+.2f %%)\n", what.c_str(), estimate.mean(), estimate.standard_error(), truth, 100 * (estimate.mean() / truth - 1));
+    std::printf("%-44s %.5f +- %.5f, exactly %.5f (%+.2f %%)\n", what.c_str(), estimate.mean(),
+                estimate.standard_error(), truth, 100 * (estimate.mean() / truth - 1));
 }
 
 void expect_equal(const Estimate& a, const Estimate& b, double off, const std::string& what)
@@ -28,7 +30,8 @@ constexpr uint32_t paths = 200'000;
 
 TEST(ShellTracing, HalfSpacesReflectWhatTheoryKnows)
 {
-    const auto shallow = slab(150, V3d(1), Color(0.9f), 0, StfForm::full), deep = slab(500, V3d(1), Color(0.99f), 0, StfForm::full);
+    const auto shallow = slab(150, V3d(1), Color(0.9f), 0, StfForm::full),
+               deep = slab(500, V3d(1), Color(0.99f), 0, StfForm::full);
     expect_truth(shine(*shallow, paths, 1, 1).up[0], 0.41495, "half-space 0.9, normal");
     expect_truth(shine(*shallow, paths, -1, 2).up[0], 0.47802, "half-space 0.9, diffuse");
     expect_truth(shine(*deep, paths, 1, 3).up[0], 0.75272, "half-space 0.99, normal");
@@ -52,12 +55,14 @@ TEST(ShellTracing, ThickSlabsAreAsWithoutShells)
 {
     for (const double g : {0.0, 0.8}) {
         const Color albedo(0.9f, 0.99f, 1);
-        const ReflectedAndPassed shells = shine(*slab(60, V3d(1), albedo, g, StfForm::full), paths, 1, 8), events = shine(*slab(60, V3d(1), albedo, g), paths / 8, 1, 9);
+        const ReflectedAndPassed shells = shine(*slab(60, V3d(1), albedo, g, StfForm::full), paths, 1, 8),
+                                 events = shine(*slab(60, V3d(1), albedo, g), paths / 8, 1, 9);
         for (int c = 0; c < 3; ++c) {
             expect_equal(shells.up[c], events.up[c], systematic, "R");
             expect_equal(shells.down[c], events.down[c], systematic, "T");
         }
-        std::printf("tau 60, g %g: R %.4f %.4f %.4f, T %.5f; from event to event %.4f %.4f %.4f, %.5f\n", g, shells.up[0].mean(), shells.up[1].mean(), shells.up[2].mean(), shells.down[2].mean(),
+        std::printf("tau 60, g %g: R %.4f %.4f %.4f, T %.5f; from event to event %.4f %.4f %.4f, %.5f\n", g,
+                    shells.up[0].mean(), shells.up[1].mean(), shells.up[2].mean(), shells.down[2].mean(),
                     events.up[0].mean(), events.up[1].mean(), events.up[2].mean(), events.down[2].mean());
     }
 }
@@ -66,21 +71,24 @@ TEST(ShellTracing, DoesNotKnowTheUnitOfLength)
 {
     const double scale = 0x1p20;
     const ReflectedAndPassed one = shine(*slab(20, V3d(1), Color(0.99f), 0.5, StfForm::full), 3000, 0.8, 7);
-    const ReflectedAndPassed large = shine(*slab(20 * scale, V3d(1 / scale), Color(0.99f), 0.5, StfForm::full), 3000, 0.8, 7);
+    const ReflectedAndPassed large =
+        shine(*slab(20 * scale, V3d(1 / scale), Color(0.99f), 0.5, StfForm::full), 3000, 0.8, 7);
     EXPECT_EQ(one.up[0].mean(), large.up[0].mean());
     EXPECT_EQ(one.down[0].mean(), large.down[0].mean());
 }
 
 TEST(ShellTracing, IsWhiteInAFurnaceInEveryForm)
 {
-    for (const StfForm form : {StfForm::full, StfForm::cosine, StfForm::hg, StfForm::interpolated, StfForm::diffusion}) {
+    for (const StfForm form :
+         {StfForm::full, StfForm::cosine, StfForm::hg, StfForm::interpolated, StfForm::diffusion}) {
         TestScene constant, sampled;
         for (TestScene* scene : {&constant, &sampled}) {
             scene->add_medium(cube(), V3d(25), Color(1), 0.6);
             scene->add_surface(box_mesh({-0.9, -0.9, -0.6}, {0.4, 0.5, -0.5}), dielectric(1.33));
             TriangleMesh ball = icosphere(2);
             for (V3d& p : ball.positions) p = 0.7 * p + V3d(0.5, 0.2, -0.4);
-            scene->add_medium(ball, V3d(12), Color(1), -0.3); // through the cube's faces: where both are, light goes from event to event
+            scene->add_medium(ball, V3d(12), Color(1),
+                              -0.3); // through the cube's faces: where both are, light goes from event to event
             scene->use_shells(form);
         }
         constant.add_constant_light(1);
@@ -93,10 +101,13 @@ TEST(ShellTracing, IsWhiteInAFurnaceInEveryForm)
             PathOptions options;
             options.direct_light = strategy;
             const Estimate e = from_all_around(sampled.world(), sampled.tracer(), 30'000, 4, options, 6);
-            // What scattering alone finds is 1 but for rounding; by light sampling records are off by what their scatterings near the shell are.
+            // What scattering alone finds is 1 but for rounding; by light sampling records are off by what their
+            // scatterings near the shell are.
             const double off = strategy == DirectLight::scattering_only ? 1e-5 : systematic;
-            EXPECT_LT(std::abs(e.mean() - 1), 4 * e.standard_error() + off) << stf_form_names[static_cast<size_t>(form)] << ", strategy " << static_cast<int>(strategy);
-            std::printf("%s, strategy %d: %.5f +- %.5f\n", stf_form_names[static_cast<size_t>(form)].c_str(), static_cast<int>(strategy), e.mean(), e.standard_error());
+            EXPECT_LT(std::abs(e.mean() - 1), 4 * e.standard_error() + off)
+                << stf_form_names[static_cast<size_t>(form)] << ", strategy " << static_cast<int>(strategy);
+            std::printf("%s, strategy %d: %.5f +- %.5f\n", stf_form_names[static_cast<size_t>(form)].c_str(),
+                        static_cast<int>(strategy), e.mean(), e.standard_error());
         }
     }
 }
@@ -114,18 +125,22 @@ TEST(ShellTracing, FindsLightByEveryStrategyAsVolumetricPathTracingDoes)
         for (const DirectLight strategy : {DirectLight::both, DirectLight::lights_only, DirectLight::scattering_only}) {
             PathOptions options;
             options.direct_light = strategy;
-            found.push_back(from_all_around(scene.world(), scene.tracer(), shells ? 150'000 : 60'000, 4, options, 3 + found.size()));
-            std::printf("shells %d, strategy %d: %.5f +- %.5f\n", shells, static_cast<int>(strategy), found.back().mean(), found.back().standard_error());
+            found.push_back(from_all_around(scene.world(), scene.tracer(), shells ? 150'000 : 60'000, 4, options,
+                                            3 + found.size()));
+            std::printf("shells %d, strategy %d: %.5f +- %.5f\n", shells, static_cast<int>(strategy),
+                        found.back().mean(), found.back().standard_error());
         }
     }
-    for (size_t i = 1; i < found.size(); ++i) expect_equal(found[i], found[0], systematic, "strategy " + std::to_string(i % 3));
+    for (size_t i = 1; i < found.size(); ++i)
+        expect_equal(found[i], found[0], systematic, "strategy " + std::to_string(i % 3));
 }
 
 TEST(ShellTracing, WeighsLightByThePhaseFunctionThatRecordsAreDrawnFrom)
 {
-    // Nearly all light goes on or back within 36 degrees of its way: looking from the middle, where shells are largest, under a sun behind the viewer, the table
-    // has five times the density of Henyey and Greenstein's phase function of the same mean cosine, 0, which the last two forms take instead. With light sampled by
-    // the one and directions drawn from the other, the first two strategies were 0.066 and 0.026.
+    // Nearly all light goes on or back within 36 degrees of its way: looking from the middle, where shells are largest,
+    // under a sun behind the viewer, the table has five times the density of Henyey and Greenstein's phase function of
+    // the same mean cosine, 0, which the last two forms take instead. With light sampled by the one and directions
+    // drawn from the other, the first two strategies were 0.066 and 0.026.
     CosineTable bins;
     for (uint32_t i = 0; i < CosineTable::bins; ++i) {
         const double cosine = (i + 0.5) * CosineTable::width() - 1;
@@ -146,11 +161,14 @@ TEST(ShellTracing, WeighsLightByThePhaseFunctionThatRecordsAreDrawnFrom)
             Estimate& radiance = found.emplace_back();
             for (uint32_t p = 0; p < 50'000; ++p) {
                 Sampler sampler(5 + found.size(), p, 0, 0);
-                radiance.add(trace_path(scene.world(), scene.tracer(), V3d(0), V3d(0, 0, -1), sampler, options).radiance.x);
+                radiance.add(
+                    trace_path(scene.world(), scene.tracer(), V3d(0), V3d(0, 0, -1), sampler, options).radiance.x);
             }
-            std::printf("%s, strategy %d: %.5f +- %.5f\n", stf_form_names[static_cast<size_t>(form)].c_str(), static_cast<int>(strategy), radiance.mean(), radiance.standard_error());
+            std::printf("%s, strategy %d: %.5f +- %.5f\n", stf_form_names[static_cast<size_t>(form)].c_str(),
+                        static_cast<int>(strategy), radiance.mean(), radiance.standard_error());
         }
-        for (size_t i = 1; i < found.size(); ++i) expect_equal(found[i], found[0], systematic, stf_form_names[static_cast<size_t>(form)]);
+        for (size_t i = 1; i < found.size(); ++i)
+            expect_equal(found[i], found[0], systematic, stf_form_names[static_cast<size_t>(form)]);
     }
 }
 

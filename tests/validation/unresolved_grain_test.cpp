@@ -1,7 +1,7 @@
 // Grains that are narrower than a pixel where they are seen: as bright as proxies from the first on.
 
-#include "render/integrators/path_tracer.h"
 #include "base/warp.h"
+#include "render/integrators/path_tracer.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/statistics.h"
@@ -11,10 +11,11 @@
 namespace scree {
 namespace {
 
-constexpr int edge = 20;          // grains
+constexpr int edge = 20; // grains
 constexpr uint32_t paths = 120'000;
 
-/// Cubes (each turned its own way) that cover a fifth of a plane, in an absorbing fog or not, with light that comes from where they are looked at.
+/// Cubes (each turned its own way) that cover a fifth of a plane, in an absorbing fog or not, with light that comes
+/// from where they are looked at.
 std::unique_ptr<TestScene> sparse_layer(bool fog)
 {
     auto scene = std::make_unique<TestScene>();
@@ -22,7 +23,8 @@ std::unique_ptr<TestScene> sparse_layer(bool fog)
     white.kind = MaterialKind::lambert;
     white.reflectance = Color(0.9f);
     const uint32_t type = scene->add_type(white, box_mesh(V3d(-0.57), V3d(0.57)));
-    for (int i = 0; i < edge * edge; ++i) scene->add_grain({3.0 * (i % edge - 0.5 * (edge - 1)), 3.0 * (i / edge - 0.5 * (edge - 1)), 0}, 1, type);
+    for (int i = 0; i < edge * edge; ++i)
+        scene->add_grain({3.0 * (i % edge - 0.5 * (edge - 1)), 3.0 * (i / edge - 0.5 * (edge - 1)), 0}, 1, type);
     if (fog) scene->add_medium(box_mesh(V3d(-40, -40, -6), V3d(40, 40, 6)), V3d(0.08), Color(0), 0);
     Light sun;
     sun.kind = LightKind::distant;
@@ -52,8 +54,8 @@ Estimate seen(const TestScene& scene, const PathOptions& options, uint64_t seed)
 
 class UnresolvedGrains : public testing::TestWithParam<bool> {};
 
-// Which cubes a ray meets depends on how they are turned: that of 400 is known to 0.5 %. Rays that were traced again from the start, as once they
-// were, were 14 % too dark without fog and 62 % with it.
+// Which cubes a ray meets depends on how they are turned: that of 400 is known to 0.5 %. Rays that were traced again
+// from the start, as once they were, were 14 % too dark without fog and 62 % with it.
 TEST_P(UnresolvedGrains, AreMetOnceAndNotMissedTwice)
 {
     const auto scene = sparse_layer(GetParam());
@@ -62,13 +64,15 @@ TEST_P(UnresolvedGrains, AreMetOnceAndNotMissedTwice)
     unresolved.explicit_grains = 1;
     unresolved.resolved = {scene->space().length(10), 0};
     const Estimate truth = seen(*scene, proxies, 1), found = seen(*scene, unresolved, 2);
-    std::printf("proxies %.5f +- %.5f, unresolved %.5f +- %.5f\n", truth.mean(), truth.standard_error(), found.mean(), found.standard_error());
+    std::printf("proxies %.5f +- %.5f, unresolved %.5f +- %.5f\n", truth.mean(), truth.standard_error(), found.mean(),
+                found.standard_error());
     const double error = std::hypot(truth.standard_error(), found.standard_error());
     EXPECT_LT(error, 0.012 * truth.mean());
     EXPECT_LT(std::abs(found.mean() - truth.mean()), 3 * error + 0.015 * truth.mean());
 }
 
-INSTANTIATE_TEST_SUITE_P(WithAndWithoutFog, UnresolvedGrains, testing::Bool(), [](const auto& test) { return std::string(test.param ? "Fog" : "Air"); });
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutFog, UnresolvedGrains, testing::Bool(),
+                         [](const auto& test) { return std::string(test.param ? "Fog" : "Air"); });
 
 } // namespace
 } // namespace scree

@@ -25,11 +25,13 @@ void read_face(TextScanner& text, PolygonSoup& soup)
     const uint64_t line = text.line();
     for (std::string_view word = text.word_in_line(); !word.empty(); word = text.word_in_line()) {
         const int64_t index = text.integer(word.substr(0, word.find('/')), "a vertex of a face");
-        if (index == 0) throw InputError(text.place(), "a face with vertex 0", "vertices counted from 1, or from -1 back");
+        if (index == 0)
+            throw InputError(text.place(), "a face with vertex 0", "vertices counted from 1, or from -1 back");
         const int64_t from_zero = index > 0 ? index - 1 : static_cast<int64_t>(soup.positions.size()) + index;
         if (from_zero < 0) {
-            throw InputError(text.place(), fmt::format("a face with vertex {}", index),
-                             fmt::format("at most {} vertices back, as there are no more so far", soup.positions.size()));
+            throw InputError(
+                text.place(), fmt::format("a face with vertex {}", index),
+                fmt::format("at most {} vertices back, as there are no more so far", soup.positions.size()));
         }
         soup.corners.push_back(checked_index(from_zero, soup, text.place()));
     }
@@ -49,10 +51,14 @@ PolygonSoup read_obj(std::string_view content, const std::string& file)
     bool more = true;
     for (; more; more = text.next_line()) {
         const std::string_view keyword = text.word_in_line();
-        if (keyword == "v") read_vertex(text, soup);
-        else if (keyword == "f" || keyword == "fo") read_face(text, soup);
-        else if (!keyword.empty() && first_unread.empty()) first_unread = text.place() + " begins with " + quoted(keyword);
-        else continue;
+        if (keyword == "v")
+            read_vertex(text, soup);
+        else if (keyword == "f" || keyword == "fo")
+            read_face(text, soup);
+        else if (!keyword.empty() && first_unread.empty())
+            first_unread = text.place() + " begins with " + quoted(keyword);
+        else
+            continue;
     }
     if (soup.face_ends.empty() && soup.positions.empty() && !first_unread.empty()) {
         throw InputError(file, "no line 'v x y z' and no line 'f a b c'", "a Wavefront OBJ mesh", first_unread);

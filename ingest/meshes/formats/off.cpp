@@ -1,4 +1,5 @@
-// OFF of Geomview: [ST][C][N][4]OFF [BINARY], counts, vertices (one a line in text), faces `n a b c ...` with perhaps colours.
+// OFF of Geomview: [ST][C][N][4]OFF [BINARY], counts, vertices (one a line in text), faces `n a b c ...` with perhaps
+// colours.
 #include "ingest/meshes/formats/byte_reader.h"
 #include "ingest/meshes/formats/polygon_soup.h"
 #include "ingest/meshes/formats/text_scanner.h"
@@ -26,7 +27,8 @@ Header parse_keyword(std::string_view word, const TextScanner& text)
     };
     const bool texture = eat("ST"), colour = eat("C"), normal = eat("N");
     header.homogeneous = eat("4");
-    if (word == "nOFF") throw InputError(text.place(), quoted(whole), "three dimensions: OFF", "nOFF has any number of them");
+    if (word == "nOFF")
+        throw InputError(text.place(), quoted(whole), "three dimensions: OFF", "nOFF has any number of them");
     if (word != "OFF") throw InputError(text.place(), quoted(whole), "'OFF', the first word of an OFF mesh");
     header.extra_numbers = (normal ? 3u : 0u) + (colour ? 4u : 0u) + (texture ? 2u : 0u);
     return header;
@@ -55,7 +57,9 @@ PolygonSoup read_text(TextScanner& text, const Header& header, std::string_view 
     text.next_line(); // the number of edges, often left out or wrong, is not needed
     for (int64_t i = 0; i < vertices; ++i) {
         const std::string_view x = text.word();
-        if (x.empty()) throw InputError(text.place(), fmt::format("the end of the file after {} vertices", i), fmt::format("{}", vertices));
+        if (x.empty())
+            throw InputError(text.place(), fmt::format("the end of the file after {} vertices", i),
+                             fmt::format("{}", vertices));
         Imath::V3d p;
         p.x = text.number(x, "the x of a vertex");
         p.y = text.number(text.word_in_line(), "the y of a vertex");
@@ -67,7 +71,9 @@ PolygonSoup read_text(TextScanner& text, const Header& header, std::string_view 
     }
     for (int64_t i = 0; i < faces; ++i) {
         const std::string_view size = text.word();
-        if (size.empty()) throw InputError(text.place(), fmt::format("the end of the file after {} faces", i), fmt::format("{}", faces));
+        if (size.empty())
+            throw InputError(text.place(), fmt::format("the end of the file after {} faces", i),
+                             fmt::format("{}", faces));
         const uint64_t line = text.line();
         const int64_t corners = text.integer(size, "how many vertices a face has");
         if (corners < 1) throw InputError(text.place(), fmt::format("a face of {} vertices", corners), "three or more");

@@ -1,5 +1,5 @@
-// PLY of Stanford, text and binary of both byte orders: the elements "vertex" (x, y, z), "face" (a list of vertices) and
-// "tristrips" are read, any others passed over.
+// PLY of Stanford, text and binary of both byte orders: the elements "vertex" (x, y, z), "face" (a list of vertices)
+// and "tristrips" are read, any others passed over.
 #include "ingest/meshes/formats/byte_reader.h"
 #include "ingest/meshes/formats/polygon_soup.h"
 #include "ingest/meshes/formats/text_scanner.h"
@@ -57,7 +57,8 @@ Property parse_property(TextScanner& text)
     std::string_view word = text.word_in_line();
     if (word == "list") {
         property.count_type = parse_type(text.word_in_line(), text);
-        if (*property.count_type >= Number::float32) throw InputError(text.place(), "a list counted by reals", "by whole numbers");
+        if (*property.count_type >= Number::float32)
+            throw InputError(text.place(), "a list counted by reals", "by whole numbers");
         word = text.word_in_line();
     }
     property.type = parse_type(word, text);
@@ -71,7 +72,8 @@ void parse_format(TextScanner& text, Header& header)
     header.text = format == "ascii";
     header.order = format == "binary_big_endian" ? std::endian::big : std::endian::little;
     if (!header.text && format != "binary_big_endian" && format != "binary_little_endian") {
-        throw InputError(text.place(), "format " + quoted(format), "'ascii', 'binary_little_endian' or 'binary_big_endian'");
+        throw InputError(text.place(), "format " + quoted(format),
+                         "'ascii', 'binary_little_endian' or 'binary_big_endian'");
     }
 }
 
@@ -92,7 +94,8 @@ Header parse_header(TextScanner& text)
             Element& element = header.elements.emplace_back();
             element.name = text.word_in_line();
             element.count = text.integer(text.word_in_line(), "how many there are of an element");
-            if (element.count < 0) throw InputError(text.place(), fmt::format("{} of an element", element.count), "none or more");
+            if (element.count < 0)
+                throw InputError(text.place(), fmt::format("{} of an element", element.count), "none or more");
         } else if (keyword == "property") {
             if (header.elements.empty()) throw InputError(text.place(), "a property", "an element before it");
             header.elements.back().properties.push_back(parse_property(text));
@@ -170,11 +173,14 @@ private:
 };
 
 /// Reads one property of one item into `values` (a list, or one number).
-void read_property(Body& body, const Property& property, const Element& element, int64_t index, std::vector<double>& values)
+void read_property(Body& body, const Property& property, const Element& element, int64_t index,
+                   std::vector<double>& values)
 {
     values.clear();
     const int64_t count = property.count_type ? body.whole(*property.count_type, element, index) : 1;
-    if (count < 0) throw InputError(body.place(), fmt::format("a list of {} in {} {}", count, element.name, index), "none or more");
+    if (count < 0)
+        throw InputError(body.place(), fmt::format("a list of {} in {} {}", count, element.name, index),
+                         "none or more");
     for (int64_t k = 0; k < count; ++k) values.push_back(body.real(property.type, element, index));
 }
 
@@ -188,12 +194,14 @@ void read_vertices(Body& body, const Element& element, PolygonSoup& soup, const 
     std::vector<int> axis_of;
     std::array<bool, 3> has{};
     for (const Property& property : element.properties) {
-        const bool is_axis = !property.count_type && property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z';
+        const bool is_axis =
+            !property.count_type && property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z';
         axis_of.push_back(is_axis ? property.name[0] - 'x' : -1);
         if (is_axis) has[static_cast<size_t>(axis_of.back())] = true;
     }
     for (size_t axis = 0; axis < 3; ++axis) {
-        if (!has[axis]) throw InputError(file, fmt::format("vertices without '{}'", "xyz"[axis]), "the properties x, y and z");
+        if (!has[axis])
+            throw InputError(file, fmt::format("vertices without '{}'", "xyz"[axis]), "the properties x, y and z");
     }
     std::vector<double> values;
     for (int64_t i = 0; i < element.count; ++i) {
@@ -241,7 +249,8 @@ void read_faces(Body& body, const Element& element, PolygonSoup& soup, const std
             vertices.clear();
             for (const double value : values) {
                 if (!(std::abs(value) < 1e15) || value != std::floor(value)) {
-                    throw InputError(body.place(), fmt::format("vertex {} in {} {}", value, element.name, i), "a whole number");
+                    throw InputError(body.place(), fmt::format("vertex {} in {} {}", value, element.name, i),
+                                     "a whole number");
                 }
                 vertices.push_back(static_cast<int64_t>(value));
             }
@@ -275,9 +284,12 @@ PolygonSoup read_ply(std::string_view content, const std::string& file)
     Body body(text, header);
     PolygonSoup soup;
     for (const Element& element : header.elements) {
-        if (element.name == "vertex" || element.name == "vertices") read_vertices(body, element, soup, file);
-        else if (has_faces(element)) read_faces(body, element, soup, file);
-        else pass_over(body, element);
+        if (element.name == "vertex" || element.name == "vertices")
+            read_vertices(body, element, soup, file);
+        else if (has_faces(element))
+            read_faces(body, element, soup, file);
+        else
+            pass_over(body, element);
     }
     return soup;
 }

@@ -14,10 +14,10 @@ namespace scree::mesh_formats {
 /// Polygons over shared vertices, as a file lists them.
 struct PolygonSoup {
     std::vector<Imath::V3d> positions;
-    std::vector<uint32_t> corners;    ///< vertices of the faces, one face after the other, counted from 0
-    std::vector<uint64_t> face_ends;  ///< where each face ends in `corners`
+    std::vector<uint32_t> corners; ///< vertices of the faces, one face after the other, counted from 0
+    std::vector<uint64_t> face_ends; ///< where each face ends in `corners`
     std::vector<uint64_t> face_lines; ///< the line each face begins on, or empty for binary files
-    uint32_t index_base = 0;          ///< what the format calls the first vertex (OBJ: 1)
+    uint32_t index_base = 0; ///< what the format calls the first vertex (OBJ: 1)
 
     /// Ends the face whose corners were appended; line 0: a binary file.
     void end_face(uint64_t line)

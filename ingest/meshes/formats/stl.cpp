@@ -1,8 +1,8 @@
 // STL, text (`solid ... facet ... vertex x y z ...`) and binary (80 bytes, the count, 50 bytes a triangle).
+#include "base/text.h"
 #include "ingest/meshes/formats/byte_reader.h"
 #include "ingest/meshes/formats/polygon_soup.h"
 #include "ingest/meshes/formats/text_scanner.h"
-#include "base/text.h"
 
 #include <fmt/format.h>
 
@@ -101,8 +101,9 @@ PolygonSoup read_stl(std::string_view content, const std::string& file)
                       content.substr(0, 1024).find('\0') == std::string_view::npos;
     if (text) return read_text(content, file);
     if (has_count && content.size() > announced && triangles > 0) return read_binary(content, triangles, file);
-    throw InputError(file, has_count ? fmt::format("{} bytes and a count of {} triangles", content.size(), triangles)
-                                     : fmt::format("{} bytes that do not begin with 'solid'", content.size()),
+    throw InputError(file,
+                     has_count ? fmt::format("{} bytes and a count of {} triangles", content.size(), triangles)
+                               : fmt::format("{} bytes that do not begin with 'solid'", content.size()),
                      has_count ? fmt::format("{} bytes for them, or text that begins with 'solid'", announced)
                                : "an STL mesh, text or binary",
                      has_count ? "the file may be cut off" : "");

@@ -8,17 +8,11 @@ namespace scree::mesh_formats {
 
 namespace {
 
-bool is_blank(char c)
-{
-    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
 } // namespace
 
-std::string quoted(std::string_view word)
-{
-    return word.empty() ? "nothing" : in_quotes(word);
-}
+std::string quoted(std::string_view word) { return word.empty() ? "nothing" : in_quotes(word); }
 
 void TextScanner::skip_blanks()
 {

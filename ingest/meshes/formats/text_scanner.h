@@ -12,7 +12,7 @@ namespace scree::mesh_formats {
 class TextScanner {
 public:
     struct Syntax {
-        bool comments = false;      ///< '#' to the end of the line is skipped
+        bool comments = false; ///< '#' to the end of the line is skipped
         bool continuations = false; ///< a backslash at the end of a line joins the next
     };
 

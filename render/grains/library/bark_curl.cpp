@@ -16,7 +16,8 @@ TriangleMesh make_bark_curl(const ShapeRequest& request)
     // n_u x n_v cells on either face and the rim between: 4 (n_u n_v + n_u + n_v) triangles, cells about square.
     const double quarter = static_cast<double>(request.triangles) / 4;
     const double most_v = std::floor((quarter - 2) / 3); // leaves room for two cells along u
-    const auto n_v = static_cast<uint32_t>(std::clamp(std::round(std::sqrt(quarter * length / arc) - 0.5), 1.0, std::max(1.0, most_v)));
+    const auto n_v = static_cast<uint32_t>(
+        std::clamp(std::round(std::sqrt(quarter * length / arc) - 0.5), 1.0, std::max(1.0, most_v)));
     const auto n_u = static_cast<uint32_t>(std::max(2.0, std::round((quarter - n_v) / (n_v + 1))));
     const double turns = std::min(full_turns, n_u / 8.0); // what few cells can bend without cutting through themselves
 
@@ -38,7 +39,8 @@ TriangleMesh make_bark_curl(const ShapeRequest& request)
     const double raggedness = request["raggedness"], roughness = request["roughness"];
 
     const auto point = [&](double u, double v, double side) { // u, v in 0..1 over the sheet, side 0 inner, 1 outer
-        // Bark tears across its fibres: the ends are ragged, the long edges nearly straight, so that the sheet has no fold.
+        // Bark tears across its fibres: the ends are ragged, the long edges nearly straight, so that the sheet has no
+        // fold.
         const double across = (u - 0.5) * (1 + 0.1 * wave(V3d(7, u < 0.5 ? 0.0 : 5.0, 2 * v)));
         const double along = (v - 0.5) * (1 + raggedness * tear(V3d(v < 0.5 ? 1.0 : 4.0, 9, 3 * u * turns)));
         const double turn = turns * (across + 0.5), angle = 2 * pi * turn;
@@ -49,10 +51,13 @@ TriangleMesh make_bark_curl(const ShapeRequest& request)
         return V3d(r * std::cos(angle), r * std::sin(angle), length * along);
     };
     TriangleMesh mesh;
-    const auto index = [&](uint32_t i, uint32_t j, uint32_t side) { return side * (n_u + 1) * (n_v + 1) + i * (n_v + 1) + j; };
+    const auto index = [&](uint32_t i, uint32_t j, uint32_t side) {
+        return side * (n_u + 1) * (n_v + 1) + i * (n_v + 1) + j;
+    };
     for (const double side : {0.0, 1.0}) {
         for (uint32_t i = 0; i <= n_u; ++i) {
-            for (uint32_t j = 0; j <= n_v; ++j) mesh.positions.push_back(point(static_cast<double>(i) / n_u, static_cast<double>(j) / n_v, side));
+            for (uint32_t j = 0; j <= n_v; ++j)
+                mesh.positions.push_back(point(static_cast<double>(i) / n_u, static_cast<double>(j) / n_v, side));
         }
     }
     const auto quad = [&](uint32_t a, uint32_t b, uint32_t c, uint32_t d) {

@@ -15,12 +15,14 @@ struct Form {
     double distance;
 };
 
-/// The forms of the common habit of sucrose (class 2: the axis b is polar, so that p and p' differ), flattened along c*.
-constexpr Form habit[] = {{1, 0, 0, 0.62}, {-1, 0, 0, 0.62}, {0, 0, 1, 0.56}, {0, 0, -1, 0.56}, {1, 0, 1, 0.69}, {-1, 0, -1, 0.69},
-                          {1, 1, 0, 0.80}, {-1, 1, 0, 0.80}, {1, -1, 0, 0.72}, {-1, -1, 0, 0.72}, {0, 1, 1, 0.84}, {0, 1, -1, 0.84}};
+/// The forms of the common habit of sucrose (class 2: the axis b is polar, so that p and p' differ), flattened along
+/// c*.
+constexpr Form habit[] = {{1, 0, 0, 0.62},  {-1, 0, 0, 0.62},  {0, 0, 1, 0.56}, {0, 0, -1, 0.56},
+                          {1, 0, 1, 0.69},  {-1, 0, -1, 0.69}, {1, 1, 0, 0.80}, {-1, 1, 0, 0.80},
+                          {1, -1, 0, 0.72}, {-1, -1, 0, 0.72}, {0, 1, 1, 0.84}, {0, 1, -1, 0.84}};
 
-/// Unit normal of a face: h a* + k b* + l c* of the monoclinic cell a 1.0863, b 0.8705, c 0.7758 nm, beta 102.95 degrees
-/// (Brown and Levy 1973).
+/// Unit normal of a face: h a* + k b* + l c* of the monoclinic cell a 1.0863, b 0.8705, c 0.7758 nm, beta 102.95
+/// degrees (Brown and Levy 1973).
 V3d face_normal(const Form& form)
 {
     constexpr double a = 1.0863, b = 0.8705, c = 0.7758;
@@ -107,7 +109,8 @@ TriangleMesh make_crystal(const ShapeRequest& request)
     // The faces of a single crystal give the mesh its edges where the solid has them.
     if (crystals.size() == 1) {
         TriangleMesh solid = convex_polyhedron(crystals[0]);
-        if (solid.triangles.size() <= request.triangles) return radial_surface(radius, std::move(solid), request.triangles);
+        if (solid.triangles.size() <= request.triangles)
+            return radial_surface(radius, std::move(solid), request.triangles);
     }
     return radial_surface(radius, request.triangles);
 }

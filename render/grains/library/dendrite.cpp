@@ -11,9 +11,9 @@ V2d left_of(const V2d& v) { return {-v.y, v.x}; }
 
 /// A branch of an arm, or a twig of a branch.
 struct Limb {
-    double at = 0;       ///< where on its parent's middle line, in units of length
-    double length = 0;   ///< from the parent's middle line to where its tip begins
-    double width = 0;    ///< half
+    double at = 0; ///< where on its parent's middle line, in units of length
+    double length = 0; ///< from the parent's middle line to where its tip begins
+    double width = 0; ///< half
     std::vector<Limb> right, left; ///< in order of `at`; of a mirror-symmetric arm the same
 };
 
@@ -31,7 +31,8 @@ public:
         figure_.outline.push_back(point(limb.length, -limb.width));
         figure_.outline.push_back(point(limb.length + limb.width / std::sqrt(3.0), 0)); // crystal faces at 120 degrees
         figure_.outline.push_back(point(limb.length, limb.width));
-        for (auto branch = limb.left.rbegin(); branch != limb.left.rend(); ++branch) trace_branch(*branch, limb.width, base, along, 1);
+        for (auto branch = limb.left.rbegin(); branch != limb.left.rend(); ++branch)
+            trace_branch(*branch, limb.width, base, along, 1);
 
         std::vector<double> stops{0, limb.length};
         for (const auto* branches : {&limb.right, &limb.left}) {
@@ -47,7 +48,8 @@ public:
 
 private:
     /// A branch at 60 degrees to its parent, with where its flanks leave the parent's. side: 1 left, -1 right.
-    void trace_branch(const Limb& branch, double parent_width, const V2d& parent_base, const V2d& parent_along, int side)
+    void trace_branch(const Limb& branch, double parent_width, const V2d& parent_base, const V2d& parent_along,
+                      int side)
     {
         const V2d base = parent_base + parent_along * branch.at, along = turned(parent_along, 0.5, side * half_sqrt3);
         const V2d across = left_of(along) * branch.width;
@@ -83,7 +85,11 @@ Dendrite make_dendrite(const DendriteOptions& options, ShapeRandom& random)
     for (const double at : spread(options.branches, first, last, 0.3, random)) {
         // Longest in the middle of the arm: at its tip they are young, near the plate in each other's shade.
         const double grown = std::min({1.0, 1.9 * (1 - at) + 0.1, at / 0.5});
-        Limb branch{at, options.branch_length * grown * random.uniform(0.6, 1), std::min(0.7 * options.width, 0.22 * room), {}, {}};
+        Limb branch{at,
+                    options.branch_length * grown * random.uniform(0.6, 1),
+                    std::min(0.7 * options.width, 0.22 * room),
+                    {},
+                    {}};
         // Tips stay within 30 degrees of their arm: the next arm's sector begins there.
         branch.length = std::clamp(branch.length, 1.6 * options.width, 0.8 * at);
         const double twig_width = 0.5 * branch.width;
@@ -92,7 +98,8 @@ Dendrite make_dendrite(const DendriteOptions& options, ShapeRandom& random)
         const int twigs = std::min(options.twigs, static_cast<int>((end - begin) / (5 * twig_width)));
         if (twigs > 0) {
             for (const double place : spread(twigs, begin, end, 0.2, random)) {
-                const double root = branch.width / half_sqrt3, grown_to = root + reach / half_sqrt3 * random.uniform(0.45, 1);
+                const double root = branch.width / half_sqrt3,
+                             grown_to = root + reach / half_sqrt3 * random.uniform(0.45, 1);
                 // Beyond half of (at - place) a twig would leave the arm's sector.
                 const double length = std::min(grown_to, 0.45 * (at - place) - 2 * twig_width);
                 if (length > root + 2 * twig_width) branch.right.push_back({place, length, twig_width, {}, {}});
@@ -105,7 +112,8 @@ Dendrite make_dendrite(const DendriteOptions& options, ShapeRandom& random)
 
     Dendrite figure;
     for (int k = 0; k < 6; ++k) {
-        constexpr double cosines[] = {1, 0.5, -0.5, -1, -0.5, 0.5}, sines[] = {0, half_sqrt3, half_sqrt3, 0, -half_sqrt3, -half_sqrt3};
+        constexpr double cosines[] = {1, 0.5, -0.5, -1, -0.5, 0.5},
+                         sines[] = {0, half_sqrt3, half_sqrt3, 0, -half_sqrt3, -half_sqrt3};
         const V2d along(cosines[k], sines[k]), side = left_of(along);
         Tracing tracing(figure);
         // The plate's corner is where the arm begins: the hexagon's edges run back from its flanks.

@@ -17,7 +17,10 @@ struct QueuedEdge {
     uint64_t age;
     uint32_t a, b;
 
-    bool operator<(const QueuedEdge& other) const { return length2 != other.length2 ? length2 < other.length2 : age > other.age; }
+    bool operator<(const QueuedEdge& other) const
+    {
+        return length2 != other.length2 ? length2 < other.length2 : age > other.age;
+    }
 };
 
 /// The mesh with its edges; an edge's first face has it as a -> b with a < b.
@@ -56,7 +59,10 @@ private:
         uint32_t forward = none, backward = none;
     };
 
-    static uint64_t key(uint32_t a, uint32_t b) { return (static_cast<uint64_t>(std::min(a, b)) << 32) | std::max(a, b); }
+    static uint64_t key(uint32_t a, uint32_t b)
+    {
+        return (static_cast<uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
+    }
     uint32_t& face_of(uint32_t a, uint32_t b)
     {
         Faces& faces = edges_[key(a, b)];

@@ -15,7 +15,8 @@ std::vector<V3d> wind(ShapeRandom& random, size_t points, double length, double 
     const double step = length / steps;
     for (size_t i = 0; i <= steps; ++i) {
         walk.push_back(p);
-        bend = (bend + 0.35 * std::sqrt(step * 20) * random.in_ball()).normalized() * std::min(1.0, bend.length() + 0.1);
+        bend =
+            (bend + 0.35 * std::sqrt(step * 20) * random.in_ball()).normalized() * std::min(1.0, bend.length() + 0.1);
         V3d turn = curliness * bend;
         const double r = p.length();
         // Near the rim it bends inwards: a wound ball has its fibres along its surface.

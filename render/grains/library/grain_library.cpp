@@ -1,8 +1,8 @@
 #include "render/grains/library/grain_library.h"
 
 #include "base/error.h"
-#include "base/text.h"
 #include "base/hash.h"
+#include "base/text.h"
 #include "ingest/meshes/enclosing_sphere.h"
 #include "render/grains/library/radial_surface.h"
 #include "render/grains/library/shape_generator.h"
@@ -77,12 +77,11 @@ std::vector<ShapeParameter> pebble(const PebbleDefaults& d)
             {"bump_size", d.bump_size, 0.05, 2, "of the largest bumps, in radii"}};
 }
 
-const std::vector<ShapeParameter> cluster{
-    {"granules", 170, 0, 400, "starch granules in the skin"},
-    {"granule_size", 0.17, 0.03, 0.5, "radius of the largest, in radii"},
-    {"lumpiness", 0.42, 0, 0.7, "height of the lump's own bumps, in radii"},
-    {"lump_size", 0.6, 0.2, 2, "of those bumps, in radii"},
-    {"roughness", 0.02, 0, 0.1, "height of the finest bumps, in radii"}};
+const std::vector<ShapeParameter> cluster{{"granules", 170, 0, 400, "starch granules in the skin"},
+                                          {"granule_size", 0.17, 0.03, 0.5, "radius of the largest, in radii"},
+                                          {"lumpiness", 0.42, 0, 0.7, "height of the lump's own bumps, in radii"},
+                                          {"lump_size", 0.6, 0.2, 2, "of those bumps, in radii"},
+                                          {"roughness", 0.02, 0, 0.1, "height of the finest bumps, in radii"}};
 
 const std::vector<ShapeParameter> snowflake{
     {"plate", 0.2, 0.1, 0.4, "radius of the hexagon in the middle over the length of an arm"},
@@ -93,19 +92,17 @@ const std::vector<ShapeParameter> snowflake{
     {"thickness", 0.035, 0.01, 0.2, "of the plate at its rim, over the length of an arm"},
     {"ridge", 0.8, 0, 3, "how much thicker limbs are along their middle"}};
 
-const std::vector<ShapeParameter> fibre_ball{
-    {"fibres", 200, 1, 2000, "how many, if the triangles suffice"},
-    {"thickness", 0.009, 0.002, 0.1, "radius of a fibre"},
-    {"length", 7, 0.5, 30, "of a fibre"},
-    {"curliness", 2.5, 0, 10, "curvature of a fibre in the ball's inside"}};
+const std::vector<ShapeParameter> fibre_ball{{"fibres", 200, 1, 2000, "how many, if the triangles suffice"},
+                                             {"thickness", 0.009, 0.002, 0.1, "radius of a fibre"},
+                                             {"length", 7, 0.5, 30, "of a fibre"},
+                                             {"curliness", 2.5, 0, 10, "curvature of a fibre in the ball's inside"}};
 
-const std::vector<ShapeParameter> bark_curl{
-    {"length", 3.2, 0.5, 8, "along the axis of the curl, in its inner radii"},
-    {"turns", 1.35, 0.1, 2.5, "of the curl"},
-    {"opening", 0.42, 0.25, 1.5, "growth of the radius per turn"},
-    {"thickness", 0.16, 0.02, 0.2, "of the bark"},
-    {"raggedness", 0.3, 0, 0.5, "of torn edges"},
-    {"roughness", 0.3, 0, 0.5, "depth of furrows, in thicknesses"}};
+const std::vector<ShapeParameter> bark_curl{{"length", 3.2, 0.5, 8, "along the axis of the curl, in its inner radii"},
+                                            {"turns", 1.35, 0.1, 2.5, "of the curl"},
+                                            {"opening", 0.42, 0.25, 1.5, "growth of the radius per turn"},
+                                            {"thickness", 0.16, 0.02, 0.2, "of the bark"},
+                                            {"raggedness", 0.3, 0, 0.5, "of torn edges"},
+                                            {"roughness", 0.3, 0, 0.5, "depth of furrows, in thicknesses"}};
 
 const std::vector<ShapeParameter> no_parameters;
 
@@ -114,29 +111,59 @@ constexpr double mm = 1e-3;
 const std::vector<Entry>& entries()
 {
     static const std::vector<Entry> all{
-        {{"sugar", "granulated sugar: a chipped crystal of sucrose", dielectric(1.558, 0.2, {0.002f, 0.004f, 0.011f}), 0.3 * mm, 20000, 1},
-         make_crystal, crystal({1.15, 1, 5, 0.012, 0.006})},
-        {{"brown_sugar", "brown sugar: small crystals grown together, coated with molasses", dielectric(1.558, 0.3, {0.2f, 0.4f, 1.1f}), 0.35 * mm, 20000, 1},
-         make_crystal, crystal({1.0, 4, 3, 0.04, 0.02})},
-        {{"ice", "crushed ice, its edges melted round", dielectric(1.31, 0, {0.00013f, 0.000055f, 0.000016f}), 2 * mm, 40000, 1},
-         make_pebble, pebble({0.85, 0.7, 14, 0.32, 3, 0.2, 0.03, 0.06, 0.9})},
-        {{"snowflake", "snow crystal: a stellar dendrite", dielectric(1.31, 0, {0.00013f, 0.000055f, 0.000016f}), 1 * mm, 20000, 1},
-         make_snowflake, snowflake},
-        {{"white_sand", "quartz sand, clear, its surface frosted", dielectric(1.545, 0.4, {0.06f, 0.075f, 0.11f}), 0.25 * mm, 20000, 1},
-         make_pebble, pebble({0.85, 0.7, 18, 0.36, 4, 0.16, 0.04, 0.1, 0.4})},
-        {{"yellow_sand", "beach sand: quartz stained by goethite", dielectric(1.545, 0.45, {0.14f, 0.32f, 0.9f}), 0.25 * mm, 20000, 1},
-         make_pebble, pebble({0.82, 0.7, 12, 0.28, 2, 0.12, 0.09, 0.1, 0.4})},
-        {{"brown_sand", "quartz and feldspar sand stained by iron oxides", dielectric(1.545, 0.5, {0.38f, 0.75f, 1.5f}), 0.3 * mm, 20000, 1},
-         make_pebble, pebble({0.8, 0.62, 16, 0.34, 4, 0.16, 0.04, 0.12, 0.45})},
-        {{"dark_brown_sand", "sand of garnet, ilmenite and stained quartz", dielectric(1.62, 0.45, {1.3f, 2.1f, 3.1f}), 0.25 * mm, 20000, 1},
-         make_pebble, pebble({0.85, 0.72, 20, 0.32, 3, 0.14, 0.03, 0.1, 0.35})},
-        {{"black_sand", "volcanic sand: basaltic glass", dielectric(1.6, 0.35, {6.0f, 6.3f, 6.6f}), 0.25 * mm, 20000, 1},
-         make_pebble, pebble({0.8, 0.65, 18, 0.36, 4, 0.18, 0.02, 0.12, 0.4})},
-        {{"flour", "wheat flour: a lump of endosperm with starch granules", lambert({0.985f, 0.975f, 0.935f}), 0.06 * mm, 20000, 1}, make_cluster, cluster},
-        {{"hairball", "wound hair: closed tubes that run through each other", lambert({0.5f, 0.34f, 0.23f}), 5 * mm, 100000, 1}, make_fibre_ball, fibre_ball},
-        {{"cinnamon", "a curled piece of cinnamon bark", lambert({0.62f, 0.37f, 0.2f}), 0.5 * mm, 20000, 1}, make_bark_curl, bark_curl},
-        {{"dielectric_sphere", "the sphere itself, of clear glass", dielectric(1.5, 0, Color(0.0f)), 0.5 * mm, 0, 1}, make_ball, no_parameters},
-        {{"diffuse_sphere", "the sphere itself, diffuse", lambert(Color(0.8f)), 0.5 * mm, 0, 1}, make_ball, no_parameters}};
+        {{"sugar", "granulated sugar: a chipped crystal of sucrose", dielectric(1.558, 0.2, {0.002f, 0.004f, 0.011f}),
+          0.3 * mm, 20000, 1},
+         make_crystal,
+         crystal({1.15, 1, 5, 0.012, 0.006})},
+        {{"brown_sugar", "brown sugar: small crystals grown together, coated with molasses",
+          dielectric(1.558, 0.3, {0.2f, 0.4f, 1.1f}), 0.35 * mm, 20000, 1},
+         make_crystal,
+         crystal({1.0, 4, 3, 0.04, 0.02})},
+        {{"ice", "crushed ice, its edges melted round", dielectric(1.31, 0, {0.00013f, 0.000055f, 0.000016f}), 2 * mm,
+          40000, 1},
+         make_pebble,
+         pebble({0.85, 0.7, 14, 0.32, 3, 0.2, 0.03, 0.06, 0.9})},
+        {{"snowflake", "snow crystal: a stellar dendrite", dielectric(1.31, 0, {0.00013f, 0.000055f, 0.000016f}),
+          1 * mm, 20000, 1},
+         make_snowflake,
+         snowflake},
+        {{"white_sand", "quartz sand, clear, its surface frosted", dielectric(1.545, 0.4, {0.06f, 0.075f, 0.11f}),
+          0.25 * mm, 20000, 1},
+         make_pebble,
+         pebble({0.85, 0.7, 18, 0.36, 4, 0.16, 0.04, 0.1, 0.4})},
+        {{"yellow_sand", "beach sand: quartz stained by goethite", dielectric(1.545, 0.45, {0.14f, 0.32f, 0.9f}),
+          0.25 * mm, 20000, 1},
+         make_pebble,
+         pebble({0.82, 0.7, 12, 0.28, 2, 0.12, 0.09, 0.1, 0.4})},
+        {{"brown_sand", "quartz and feldspar sand stained by iron oxides", dielectric(1.545, 0.5, {0.38f, 0.75f, 1.5f}),
+          0.3 * mm, 20000, 1},
+         make_pebble,
+         pebble({0.8, 0.62, 16, 0.34, 4, 0.16, 0.04, 0.12, 0.45})},
+        {{"dark_brown_sand", "sand of garnet, ilmenite and stained quartz", dielectric(1.62, 0.45, {1.3f, 2.1f, 3.1f}),
+          0.25 * mm, 20000, 1},
+         make_pebble,
+         pebble({0.85, 0.72, 20, 0.32, 3, 0.14, 0.03, 0.1, 0.35})},
+        {{"black_sand", "volcanic sand: basaltic glass", dielectric(1.6, 0.35, {6.0f, 6.3f, 6.6f}), 0.25 * mm, 20000,
+          1},
+         make_pebble,
+         pebble({0.8, 0.65, 18, 0.36, 4, 0.18, 0.02, 0.12, 0.4})},
+        {{"flour", "wheat flour: a lump of endosperm with starch granules", lambert({0.985f, 0.975f, 0.935f}),
+          0.06 * mm, 20000, 1},
+         make_cluster,
+         cluster},
+        {{"hairball", "wound hair: closed tubes that run through each other", lambert({0.5f, 0.34f, 0.23f}), 5 * mm,
+          100000, 1},
+         make_fibre_ball,
+         fibre_ball},
+        {{"cinnamon", "a curled piece of cinnamon bark", lambert({0.62f, 0.37f, 0.2f}), 0.5 * mm, 20000, 1},
+         make_bark_curl,
+         bark_curl},
+        {{"dielectric_sphere", "the sphere itself, of clear glass", dielectric(1.5, 0, Color(0.0f)), 0.5 * mm, 0, 1},
+         make_ball,
+         no_parameters},
+        {{"diffuse_sphere", "the sphere itself, diffuse", lambert(Color(0.8f)), 0.5 * mm, 0, 1},
+         make_ball,
+         no_parameters}};
     return all;
 }
 
@@ -187,7 +214,8 @@ const LibraryGrain& require_library_grain(const std::string& name, const std::st
     std::vector<std::string> names;
     for (const LibraryGrain& grain : grain_library()) names.push_back(grain.name);
     const std::string nearest = did_you_mean(name, names);
-    throw InputError(place, in_quotes(name), "a grain of the library: " + join_words(names), nearest.empty() ? "" : nearest.substr(2));
+    throw InputError(place, in_quotes(name), "a grain of the library: " + join_words(names),
+                     nearest.empty() ? "" : nearest.substr(2));
 }
 
 const std::vector<ShapeParameter>& shape_parameters(const LibraryGrain& grain) { return entry_of(grain).parameters; }
@@ -197,9 +225,12 @@ TriangleMesh make_grain_shape(const LibraryGrain& grain, const ShapeOptions& opt
     const Entry& entry = entry_of(grain);
     ShapeRequest request;
     request.seed = mix64(options.seed ^ hash_name(grain.name));
-    request.triangles = options.triangles > 0 ? options.triangles : grain.default_triangles > 0 ? grain.default_triangles : 20000;
+    request.triangles = options.triangles > 0         ? options.triangles
+                        : grain.default_triangles > 0 ? grain.default_triangles
+                                                      : 20000;
     if (request.triangles < least_shape_triangles || request.triangles > most_shape_triangles) {
-        throw InputError(place, fmt::format("{} triangles", request.triangles), fmt::format("{} to {}", least_shape_triangles, most_shape_triangles));
+        throw InputError(place, fmt::format("{} triangles", request.triangles),
+                         fmt::format("{} to {}", least_shape_triangles, most_shape_triangles));
     }
     std::vector<std::string> names;
     for (const ShapeParameter& parameter : entry.parameters) {
@@ -209,11 +240,13 @@ TriangleMesh make_grain_shape(const LibraryGrain& grain, const ShapeOptions& opt
     for (const auto& [name, value] : options.parameters) {
         const auto known = std::ranges::find(entry.parameters, name, &ShapeParameter::name);
         if (known == entry.parameters.end()) {
-            throw InputError(place, fmt::format("the unknown parameter '{}' of {}{}", name, grain.name, did_you_mean(name, names)),
-                             names.empty() ? "no parameters" : "one of " + join_words(names));
+            throw InputError(
+                place, fmt::format("the unknown parameter '{}' of {}{}", name, grain.name, did_you_mean(name, names)),
+                names.empty() ? "no parameters" : "one of " + join_words(names));
         }
         if (!(value >= known->least && value <= known->most)) {
-            throw InputError(place, fmt::format("{} = {}", name, value), fmt::format("{} to {}: {}", known->least, known->most, known->what));
+            throw InputError(place, fmt::format("{} = {}", name, value),
+                             fmt::format("{} to {}: {}", known->least, known->most, known->what));
         }
         request.parameters[name] = value;
     }
@@ -229,7 +262,9 @@ uint64_t hash_shape(const LibraryGrain& grain, const ShapeOptions& options)
     hash = mix64(mix64(hash ^ options.seed) + triangles);
     for (const ShapeParameter& parameter : shape_parameters(grain)) {
         const auto given = options.parameters.find(parameter.name);
-        hash = mix64(hash ^ std::bit_cast<uint64_t>(given == options.parameters.end() ? parameter.value : given->second)) + hash_name(parameter.name);
+        hash =
+            mix64(hash ^ std::bit_cast<uint64_t>(given == options.parameters.end() ? parameter.value : given->second)) +
+            hash_name(parameter.name);
     }
     return hash;
 }

@@ -13,16 +13,16 @@ namespace scree {
 
 /// One exemplar of the library.
 struct LibraryGrain {
-    std::string name;           ///< the key, e.g. "brown_sugar"
-    std::string description;    ///< one line
-    Material material;          ///< absorption per metre, of the real material
-    double typical_radius;      ///< of the bounding sphere, metres
+    std::string name; ///< the key, e.g. "brown_sugar"
+    std::string description; ///< one line
+    Material material; ///< absorption per metre, of the real material
+    double typical_radius; ///< of the bounding sphere, metres
     uint64_t default_triangles; ///< 0: the shape is the bounding sphere itself
-    uint32_t version;           ///< counts the changes of its generator and defaults: part of what caches are keyed by
+    uint32_t version; ///< counts the changes of its generator and defaults: part of what caches are keyed by
 };
 
-/// The fourteen grain types of Mueller et al. 2016 by our own generators; shapes, materials and their sources are listed in
-/// render/grains/library/README.md.
+/// The fourteen grain types of Mueller et al. 2016 by our own generators; shapes, materials and their sources are
+/// listed in render/grains/library/README.md.
 const std::vector<LibraryGrain>& grain_library();
 
 /// nullptr if there is none of that name.
@@ -40,11 +40,11 @@ struct ShapeOptions {
 
 inline constexpr uint64_t least_shape_triangles = 20, most_shape_triangles = 4'000'000;
 
-/// The mesh of a library grain, scaled into the unit bounding sphere, oriented outwards, of `triangles` faces within 20 %
-/// (for a type that is the sphere itself 20,000 if 0).
+/// The mesh of a library grain, scaled into the unit bounding sphere, oriented outwards, of `triangles` faces within 20
+/// % (for a type that is the sphere itself 20,000 if 0).
 ///
-/// Dielectrics are closed and do not intersect themselves. Throws InputError naming `place` for an unknown parameter or a
-/// value out of range.
+/// Dielectrics are closed and do not intersect themselves. Throws InputError naming `place` for an unknown parameter or
+/// a value out of range.
 TriangleMesh make_grain_shape(const LibraryGrain& grain, const ShapeOptions& options, const std::string& place);
 
 /// A parameter of a type's generator.

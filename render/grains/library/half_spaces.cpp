@@ -27,9 +27,12 @@ std::vector<Corner> corners_of(const std::vector<HalfSpace>& h)
             for (size_t k = j + 1; k < n; ++k) {
                 const double volume = line.dot(h[k].normal);
                 if (std::abs(volume) < 0x1p-40) continue;
-                const V3d p = (h[i].distance * h[j].normal.cross(h[k].normal) + h[j].distance * h[k].normal.cross(h[i].normal) + h[k].distance * line) / volume;
+                const V3d p = (h[i].distance * h[j].normal.cross(h[k].normal) +
+                               h[j].distance * h[k].normal.cross(h[i].normal) + h[k].distance * line) /
+                              volume;
                 bool inside = true;
-                for (size_t l = 0; l < n && inside; ++l) inside = l == i || l == j || l == k || h[l].normal.dot(p) < h[l].distance;
+                for (size_t l = 0; l < n && inside; ++l)
+                    inside = l == i || l == j || l == k || h[l].normal.dot(p) < h[l].distance;
                 if (inside) corners.push_back({{i, j, k}, p});
             }
         }
@@ -66,7 +69,8 @@ std::vector<uint32_t> ring_of(const std::vector<Corner>& corners, size_t plane)
 TriangleMesh convex_polyhedron(std::vector<HalfSpace> half_spaces)
 {
     // Planes moved by a hair each: then no four meet in a point, and what is inside is told by more than rounding.
-    for (size_t i = 0; i < half_spaces.size(); ++i) half_spaces[i].distance *= 1 + 0x1p-20 * unit_double(hash_index(i, 1));
+    for (size_t i = 0; i < half_spaces.size(); ++i)
+        half_spaces[i].distance *= 1 + 0x1p-20 * unit_double(hash_index(i, 1));
     const std::vector<Corner> corners = corners_of(half_spaces);
     TriangleMesh mesh;
     for (const Corner& corner : corners) mesh.positions.push_back(corner.place);
@@ -78,7 +82,8 @@ TriangleMesh convex_polyhedron(std::vector<HalfSpace> half_spaces)
             area += (b - a).cross(c - a).dot(half_spaces[plane].normal);
         }
         for (size_t i = 2; i < ring.size(); ++i) {
-            mesh.triangles.push_back(area > 0 ? std::array{ring[0], ring[i - 1], ring[i]} : std::array{ring[0], ring[i], ring[i - 1]});
+            mesh.triangles.push_back(area > 0 ? std::array{ring[0], ring[i - 1], ring[i]}
+                                              : std::array{ring[0], ring[i], ring[i - 1]});
         }
     }
     if (!is_closed_and_oriented(mesh)) throw std::logic_error("half-spaces that bound no polyhedron");

@@ -12,8 +12,9 @@ struct HalfSpace {
     double distance;
 };
 
-/// The boundary of the bounded intersection of half-spaces around the origin (distances > 0), faces fanned into triangles,
-/// looking outwards. Those that do not touch it add nothing. Corners of four faces are split into two by a hair.
+/// The boundary of the bounded intersection of half-spaces around the origin (distances > 0), faces fanned into
+/// triangles, looking outwards. Those that do not touch it add nothing. Corners of four faces are split into two by a
+/// hair.
 TriangleMesh convex_polyhedron(std::vector<HalfSpace> half_spaces);
 
 /// Distance from the origin to the surface of the intersection along a unit direction, with edges rounded: the p-norm

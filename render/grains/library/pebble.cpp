@@ -74,7 +74,8 @@ TriangleMesh make_pebble(const ShapeRequest& request)
 
     NoiseOptions bumps;
     bumps.scale = V3d(request["bump_size"]);
-    bumps.octaves = 1 + static_cast<int>(std::clamp(std::log2(0.5 * request["bump_size"] / mean_edge(request.triangles)), 0.0, 6.0));
+    bumps.octaves = 1 + static_cast<int>(
+                            std::clamp(std::log2(0.5 * request["bump_size"] / mean_edge(request.triangles)), 0.0, 6.0));
     bumps.gain = 0.65;
     bumps.seed = random.next();
     const FractalNoise noise(bumps);

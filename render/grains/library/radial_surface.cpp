@@ -1,7 +1,7 @@
 #include "render/grains/library/radial_surface.h"
 
-#include "render/grains/library/edge_split.h"
 #include "base/math.h"
+#include "render/grains/library/edge_split.h"
 
 namespace scree {
 
@@ -13,12 +13,15 @@ TriangleMesh icosahedron()
     TriangleMesh mesh;
     const double phi = std::numbers::phi, scale = 1 / std::sqrt(1 + phi * phi);
     for (const double s : {-1.0, 1.0}) {
-        for (const double t : {-phi, phi}) mesh.positions.insert(mesh.positions.end(), {V3d(0, s, t), V3d(s, t, 0), V3d(t, 0, s)});
+        for (const double t : {-phi, phi})
+            mesh.positions.insert(mesh.positions.end(), {V3d(0, s, t), V3d(s, t, 0), V3d(t, 0, s)});
     }
     for (V3d& p : mesh.positions) p *= scale;
     // Faces are the triples of vertices that are an edge apart; edges are 2 before scaling.
     const double edge2 = 4 * scale * scale;
-    const auto near = [&](uint32_t a, uint32_t b) { return std::abs((mesh.positions[a] - mesh.positions[b]).length2() - edge2) < 0.1; };
+    const auto near = [&](uint32_t a, uint32_t b) {
+        return std::abs((mesh.positions[a] - mesh.positions[b]).length2() - edge2) < 0.1;
+    };
     for (uint32_t a = 0; a < 12; ++a) {
         for (uint32_t b = a + 1; b < 12; ++b) {
             for (uint32_t c = b + 1; c < 12; ++c) {
@@ -49,10 +52,7 @@ TriangleMesh moved_onto(const RadialFunction& radius, TriangleMesh mesh)
 
 } // namespace
 
-double mean_edge(uint64_t triangles)
-{
-    return std::sqrt(16 * pi / (std::sqrt(3.0) * static_cast<double>(triangles)));
-}
+double mean_edge(uint64_t triangles) { return std::sqrt(16 * pi / (std::sqrt(3.0) * static_cast<double>(triangles))); }
 
 TriangleMesh radial_surface(const RadialFunction& radius, uint64_t triangles)
 {

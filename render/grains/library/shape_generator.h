@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/grains/library/grain_library.h"
 #include "base/math.h"
+#include "render/grains/library/grain_library.h"
 
 namespace scree {
 

@@ -15,7 +15,8 @@ public:
     /// In [0, 1).
     double uniform() { return unit_double(next()); }
     double uniform(double lo, double hi) { return lo + (hi - lo) * uniform(); }
-    /// Uniform in the unit ball, by rejection: without trigonometric functions, whose last bits differ between machines.
+    /// Uniform in the unit ball, by rejection: without trigonometric functions, whose last bits differ between
+    /// machines.
     V3d in_ball()
     {
         while (true) {

@@ -26,7 +26,10 @@ std::vector<std::array<uint32_t, 2>> border_of(const TriangleMesh& mesh)
     return border;
 }
 
-uint64_t triangles_of_solid(const TriangleMesh& sheet) { return 2 * (sheet.triangles.size() + border_of(sheet).size()); }
+uint64_t triangles_of_solid(const TriangleMesh& sheet)
+{
+    return 2 * (sheet.triangles.size() + border_of(sheet).size());
+}
 
 /// The sheet and its mirror image below z = 0, and the walls between: a solid, as the sheet lies above everywhere.
 TriangleMesh solid_of(const TriangleMesh& sheet)
@@ -77,11 +80,13 @@ TriangleMesh make_snowflake(const ShapeRequest& request)
         break;
     }
     const double half = 0.5 * request["thickness"];
-    for (size_t i = 0; i < sheet.positions.size(); ++i) sheet.positions[i].z = i < outline ? half : half * (1 + request["ridge"]);
+    for (size_t i = 0; i < sheet.positions.size(); ++i)
+        sheet.positions[i].z = i < outline ? half : half * (1 + request["ridge"]);
 
     // Each split adds two triangles to the sheet, or one and a border edge; four to the solid in either case.
     const uint64_t now = triangles_of_solid(sheet);
-    split_longest_edges(sheet, request.triangles > now ? (request.triangles - now) / 4 : 0, [](const V3d& middle) { return middle; });
+    split_longest_edges(sheet, request.triangles > now ? (request.triangles - now) / 4 : 0,
+                        [](const V3d& middle) { return middle; });
     return solid_of(sheet);
 }
 

@@ -14,9 +14,11 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<uint32_t, Kernel>;
-using FaceBase = CGAL::Triangulation_face_base_with_info_2<bool, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
-                                                                 CGAL::No_constraint_intersection_tag>;
+using FaceBase =
+    CGAL::Triangulation_face_base_with_info_2<bool, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using Triangulation =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+                                               CGAL::No_constraint_intersection_tag>;
 
 } // namespace
 
@@ -38,7 +40,8 @@ TriangleMesh triangulate(const Dendrite& figure)
         const size_t n = figure.outline.size();
         for (const V2d& p : figure.outline) vertex(p);
         if (mesh.positions.size() != n) throw std::logic_error("a dendrite whose outline meets itself");
-        for (size_t i = 0; i < n; ++i) delaunay.insert_constraint(vertex(figure.outline[i]), vertex(figure.outline[(i + 1) % n]));
+        for (size_t i = 0; i < n; ++i)
+            delaunay.insert_constraint(vertex(figure.outline[i]), vertex(figure.outline[(i + 1) % n]));
         for (const auto& line : figure.middle_lines) {
             for (size_t i = 1; i < line.size(); ++i) delaunay.insert_constraint(vertex(line[i - 1]), vertex(line[i]));
         }
@@ -57,13 +60,15 @@ TriangleMesh triangulate(const Dendrite& figure)
             open.pop_back();
             for (int i = 0; i < 3; ++i) {
                 const auto next = face->neighbor(i);
-                if (next->info() || on_outline(face->vertex(Triangulation::cw(i)), face->vertex(Triangulation::ccw(i)))) continue;
+                if (next->info() || on_outline(face->vertex(Triangulation::cw(i)), face->vertex(Triangulation::ccw(i))))
+                    continue;
                 next->info() = true;
                 open.push_back(next);
             }
         }
         for (const auto face : delaunay.finite_face_handles()) {
-            if (!face->info()) mesh.triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+            if (!face->info())
+                mesh.triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
         }
         // The order of CGAL's containers follows addresses; that of the vertices does not.
         for (auto& t : mesh.triangles) std::ranges::rotate(t, std::ranges::min_element(t));

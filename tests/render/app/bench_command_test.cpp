@@ -1,7 +1,7 @@
 // scree bench from end to end on a scene of some grains.
 
-#include "base/error.h"
 #include "base/drawing/svg_plot.h"
+#include "base/error.h"
 #include "render/app/bench_command.h"
 #include "render/bench/bench_page.h"
 #include "render/bench/bench_run.h"
@@ -66,7 +66,8 @@ protected:
     }
     std::vector<std::string> quick(const std::string& folder) const
     {
-        return {scene_, "-o", path(folder), "--integrators", "auto,ept", "--size", "24x18", "--time", "0.2", "--reference-time", "0.2"};
+        return {scene_,  "-o",     path(folder), "--integrators",    "auto,ept", "--size",
+                "24x18", "--time", "0.2",        "--reference-time", "0.2"};
     }
 
     TemporaryFolder folder_;
@@ -93,7 +94,8 @@ TEST_F(BenchCommand, WritesATableNumbersAndAPage)
         EXPECT_GT(method["segments_per_processor_second"].get<double>(), 0);
         EXPECT_FALSE(method["bias_measured"].get<bool>());
         EXPECT_GE(method["convergence"].size(), 3u);
-        EXPECT_LT(method["convergence"].back()["squared_error"]["value"].get<double>(), method["convergence"].front()["squared_error"]["value"].get<double>());
+        EXPECT_LT(method["convergence"].back()["squared_error"]["value"].get<double>(),
+                  method["convergence"].front()["squared_error"]["value"].get<double>());
     }
     const std::string page = read_bytes(folder_.path("out/index.html"));
     check_xml(page.substr(page.find("<html")));
@@ -125,7 +127,9 @@ TEST_F(BenchCommand, GoesOnWithItsReference)
 TEST_F(BenchCommand, TakesAPictureAsReference)
 {
     run(quick("out"));
-    std::vector<std::string> arguments{scene_, "-o", path("again"), "--integrators", "ept", "--size", "24x18", "--time", "0.2", "--reference", path("out/reference.exr")};
+    std::vector<std::string> arguments{
+        scene_,   "-o",  path("again"), "--integrators",          "ept", "--size", "24x18",
+        "--time", "0.2", "--reference", path("out/reference.exr")};
     run(arguments);
     EXPECT_EQ(wrong_, "");
     const json numbers = json::parse(read_bytes(folder_.path("again/bench.json")));
@@ -154,7 +158,9 @@ TEST_F(BenchCommand, SaysThatAReferenceIsOfAnotherScene)
 {
     run(quick("out"));
     const auto with = [&](std::vector<std::string> more) {
-        std::vector<std::string> arguments{scene_, "-o", path("again"), "--integrators", "ept", "--size", "24x18", "--time", "0.1", "--reference", path("out/reference.exr")};
+        std::vector<std::string> arguments{
+            scene_,   "-o",  path("again"), "--integrators",          "ept", "--size", "24x18",
+            "--time", "0.1", "--reference", path("out/reference.exr")};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run(arguments);
     };
@@ -169,7 +175,9 @@ TEST_F(BenchCommand, SaysWhatAReferenceOfUnknownNoiseLeavesOpen)
     std::erase_if(plain.planes, [](const auto& plane) { return plane.first.size() > 1; });
     plain.numbers.clear();
     write_exr_planes(folder_.path("plain.exr"), plain);
-    EXPECT_THAT(run({scene_, "-o", path("out"), "--integrators", "ept", "--size", "24x18", "--time", "0.1", "--reference", path("plain.exr")}), HasSubstr("(with ref.)"));
+    EXPECT_THAT(run({scene_, "-o", path("out"), "--integrators", "ept", "--size", "24x18", "--time", "0.1",
+                     "--reference", path("plain.exr")}),
+                HasSubstr("(with ref.)"));
     const json numbers = json::parse(read_bytes(folder_.path("out/bench.json")));
     EXPECT_FALSE(numbers["reference"]["noise_known"].get<bool>());
     EXPECT_TRUE(numbers["methods"][0]["mrse"]["standard_error"].is_null());
@@ -229,7 +237,8 @@ TEST_F(BenchCommand, FindsABiasedMethod)
     EXPECT_FALSE(run_bench(job, Progress()).methods[0].estimate.squared_bias.is_above_zero());
     job.scene.max_depth = 2; // leaves light out
     const ErrorEstimate biased = run_bench(job, Progress()).methods[0].estimate;
-    EXPECT_TRUE(biased.squared_bias.is_above_zero()) << biased.squared_bias.value << " +- " << biased.squared_bias.error;
+    EXPECT_TRUE(biased.squared_bias.is_above_zero())
+        << biased.squared_bias.value << " +- " << biased.squared_bias.error;
     EXPECT_LT(biased.color[0].value, -3 * biased.color[0].error);
     EXPECT_GT(biased.squared_error.value, biased.noise.value);
 }
@@ -277,15 +286,18 @@ TEST_F(BenchCommand, ComplainsClearly)
     EXPECT_THAT(complaint({"--suite", path("none.json"), "-o", path("x")}), HasSubstr("no such file"));
     EXPECT_THAT(complaint({"--suite", "--size", "8x8"}), HasSubstr("excludes"));
     EXPECT_THAT(complaint({scene_, "-o", path("x"), "--suite-scale", "2"}), HasSubstr("--suite-scale"));
-    EXPECT_THAT(complaint({scene_, "-o", path("x"), "--integrators", "ept", "--accuracy", "draft"}), HasSubstr("add auto"));
+    EXPECT_THAT(complaint({scene_, "-o", path("x"), "--integrators", "ept", "--accuracy", "draft"}),
+                HasSubstr("add auto"));
 }
 
 TEST_F(BenchCommand, RunsASuiteAndPutsItIntoAText)
 {
-    std::ofstream(folder_.path("suite.json")) << R"({"scenes": [{"name": "few", "scene": ")" << std::filesystem::path(scene_).filename().string()
-                                              << R"(", "size": [16, 12], "integrators": ["ept"], "time": 0.2, "reference_time": 0.2}]})";
+    std::ofstream(folder_.path("suite.json"))
+        << R"({"scenes": [{"name": "few", "scene": ")" << std::filesystem::path(scene_).filename().string()
+        << R"(", "size": [16, 12], "integrators": ["ept"], "time": 0.2, "reference_time": 0.2}]})";
     std::ofstream(folder_.path("text.md")) << "before\n<!-- scree bench -->\nold\n<!-- /scree bench -->\nafter\n";
-    const std::string text = run({"--suite", path("suite.json"), "-o", path("out"), "--readme", path("text.md"), "--suite-scale", "0.5"});
+    const std::string text =
+        run({"--suite", path("suite.json"), "-o", path("out"), "--readme", path("text.md"), "--suite-scale", "0.5"});
     EXPECT_EQ(wrong_, "");
     EXPECT_THAT(text, HasSubstr("few"));
     expect_narrow(text);
@@ -340,7 +352,9 @@ TEST(BenchWords, GivesGainsWithTheirError)
 TEST(MemoryMeter, LeavesTheProgramsPeak)
 {
     constexpr size_t bytes = size_t{96} << 20;
-    { const std::vector<char> large(bytes, 1); }
+    {
+        const std::vector<char> large(bytes, 1);
+    }
     const uint64_t peak = peak_bytes();
     EXPECT_GT(peak, bytes);
     const MemoryMeter meter;

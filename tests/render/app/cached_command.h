@@ -26,7 +26,8 @@ protected:
     std::vector<std::filesystem::path> stored() const
     {
         std::vector<std::filesystem::path> files;
-        for (const auto& entry : std::filesystem::directory_iterator(folder_.path("cache"))) files.push_back(entry.path());
+        for (const auto& entry : std::filesystem::directory_iterator(folder_.path("cache")))
+            files.push_back(entry.path());
         return files;
     }
 

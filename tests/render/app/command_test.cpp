@@ -33,7 +33,8 @@ protected:
     std::string files() const
     {
         std::vector<std::string> names;
-        for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) names.push_back(entry.path().filename().string());
+        for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+            names.push_back(entry.path().filename().string());
         std::sort(names.begin(), names.end());
         return fmt::format("{}", fmt::join(names, " "));
     }
@@ -53,8 +54,9 @@ TEST_F(Command, HelpNamesEveryOption)
 {
     const ProgramRun run = run_scree({"render", "--help"});
     EXPECT_EQ(run.status, 0);
-    for (const char* option : {"--output", "--spp", "--timeout", "--integrator", "--frames", "--size", "--cropwindow", "--pixelbounds", "--aov", "--threads",
-                               "--seed", "--max-depth", "--resume", "--plan", "--stats", "--stats-json", "--debug-sample", "-D", "--quiet"}) {
+    for (const char* option : {"--output", "--spp", "--timeout", "--integrator", "--frames", "--size", "--cropwindow",
+                               "--pixelbounds", "--aov", "--threads", "--seed", "--max-depth", "--resume", "--plan",
+                               "--stats", "--stats-json", "--debug-sample", "-D", "--quiet"}) {
         EXPECT_THAT(run.out, HasSubstr(option));
     }
 }
@@ -95,7 +97,8 @@ TEST_F(Command, PlanBuildsAndWritesNothing)
     const ProgramRun run = render({"--plan"});
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(files(), before);
-    for (const char* line : {"40x30", "built", "skipped", "grains", "exemplar 'cube'", "40 of 40 spheres", "1 meshes", "next-event", "frame 0 of 1"}) {
+    for (const char* line : {"40x30", "built", "skipped", "grains", "exemplar 'cube'", "40 of 40 spheres", "1 meshes",
+                             "next-event", "frame 0 of 1"}) {
         EXPECT_THAT(run.out, HasSubstr(line));
     }
 }
@@ -122,7 +125,8 @@ TEST_F(Command, StatisticsAreText)
 {
     const ProgramRun run = render({"-q", "--stats"});
     EXPECT_EQ(run.status, 0);
-    for (const char* word : {"segments", "shadow rays", "peak memory", "2 samples a pixel"}) EXPECT_THAT(run.out, HasSubstr(word));
+    for (const char* word : {"segments", "shadow rays", "peak memory", "2 samples a pixel"})
+        EXPECT_THAT(run.out, HasSubstr(word));
 }
 
 TEST_F(Command, ReplaysASample)
@@ -134,7 +138,9 @@ TEST_F(Command, ReplaysASample)
         const ProgramRun run = render({"--debug-sample", fmt::format("{},{},0", x, y)});
         EXPECT_EQ(run.status, 0) << run.err;
         const size_t i = picture.index(x, y);
-        EXPECT_THAT(run.out, HasSubstr(fmt::format("pixel {},{} sample 0: radiance {} {} {}", x, y, picture.floats.at("R")[i], picture.floats.at("G")[i], picture.floats.at("B")[i])));
+        EXPECT_THAT(run.out,
+                    HasSubstr(fmt::format("pixel {},{} sample 0: radiance {} {} {}", x, y, picture.floats.at("R")[i],
+                                          picture.floats.at("G")[i], picture.floats.at("B")[i])));
         EXPECT_THAT(run.out, HasSubstr("   0 from ("));
     }
     EXPECT_FALSE(exists("out.exr"));
@@ -145,9 +151,12 @@ TEST_F(Command, NamesFrames)
     SceneFiles files_of = standard_scene();
     files_of.frames.resize(4, files_of.frames[0]);
     files_of.write(folder_);
-    const ProgramRun range = run_scree({"render", scene_, "-q", "--spp", "1", "--frames", "1:3:2", "-o", path("film.exr"), "-o", path("small_%02d.png")});
+    const ProgramRun range = run_scree({"render", scene_, "-q", "--spp", "1", "--frames", "1:3:2", "-o",
+                                        path("film.exr"), "-o", path("small_%02d.png")});
     EXPECT_EQ(range.status, 0) << range.err;
-    EXPECT_EQ(files(), "ball.obj cube.obj film.0001.exr film.0003.exr floor.obj grains.dump scene.json small_01.png small_03.png");
+    EXPECT_EQ(
+        files(),
+        "ball.obj cube.obj film.0001.exr film.0003.exr floor.obj grains.dump scene.json small_01.png small_03.png");
     EXPECT_EQ(run_scree({"render", scene_, "-q", "--spp", "1", "--frames", "2", "-o", path("one.exr")}).status, 0);
     EXPECT_TRUE(exists("one.exr"));
 }
@@ -190,7 +199,10 @@ TEST_F(Command, WritesPreviews)
 
 TEST_F(Command, OverridesTheScene)
 {
-    ASSERT_EQ(render({"-q", "-D", "camera.fov=30", "-D", "film.filter=\"box\"", "-D", "/film/size=[8, 6]", "--aov", "depth,samples"}).status, 0);
+    ASSERT_EQ(render({"-q", "-D", "camera.fov=30", "-D", "film.filter=\"box\"", "-D", "/film/size=[8, 6]", "--aov",
+                      "depth,samples"})
+                  .status,
+              0);
     EXPECT_EQ(read_picture(path("out.exr")).width(), 8);
     ASSERT_EQ(render({"-q", "--size", "9x5"}).status, 0);
     EXPECT_EQ(read_picture(path("out.exr")).height(), 5);
@@ -206,7 +218,8 @@ TEST_F(Command, TimeoutStopsInTime)
     EXPECT_LT(run.seconds, 3);
     EXPECT_GE(read_picture(path("out.exr")).numbers.at("spp"), 1);
     EXPECT_FALSE(exists("out.exr.checkpoint")) << "without --spp there is nothing to go on to";
-    const ProgramRun cut = run_scree({"render", scene_, "-o", path("out.exr"), "--size", "320x240", "--timeout", "1", "--spp", "1000000"});
+    const ProgramRun cut =
+        run_scree({"render", scene_, "-o", path("out.exr"), "--size", "320x240", "--timeout", "1", "--spp", "1000000"});
     EXPECT_EQ(cut.status, 0);
     EXPECT_LT(cut.seconds, 3);
     EXPECT_THAT(cut.err, HasSubstr("stopped by --timeout"));
@@ -247,7 +260,9 @@ TEST_F(Command, InterruptedFilmKeepsTheFramesBefore)
     SceneFiles files_of = standard_scene();
     files_of.frames.resize(50, files_of.frames[0]);
     files_of.write(folder_);
-    const ProgramRun run = run_scree({"render", scene_, "--size", "80x60", "--spp", "100000", "--frames", "0:49", "-o", path("f.exr"), "--stats-json", path("stats.json")}, "rendering", 0.1);
+    const ProgramRun run = run_scree({"render", scene_, "--size", "80x60", "--spp", "100000", "--frames", "0:49", "-o",
+                                      path("f.exr"), "--stats-json", path("stats.json")},
+                                     "rendering", 0.1);
     EXPECT_EQ(run.status, 130);
     EXPECT_TRUE(exists("f.0000.exr"));
     EXPECT_TRUE(exists("f.0000.exr.checkpoint"));
@@ -263,7 +278,8 @@ struct WrongCall {
     std::string message; ///< a part of it
 };
 
-/// The render command in this process (a start of the program takes a third of a second): the message of what it throws.
+/// The render command in this process (a start of the program takes a third of a second): the message of what it
+/// throws.
 std::string message_of(std::vector<std::string> arguments)
 {
     CLI::App app;
@@ -279,29 +295,59 @@ std::string message_of(std::vector<std::string> arguments)
     return "";
 }
 
-const std::vector<WrongCall> wrong_calls{
-    WrongCall{{"--no-such-flag"}, "--no-such-flag"}, WrongCall{{"other.json"}, "other.json"},
-    WrongCall{{"--size", "10"}, "--size"}, WrongCall{{"--size", "10x"}, "--size"}, WrongCall{{"--size", "0x5"}, "--size"},
-    WrongCall{{"--size", "10x-5"}, "--size"}, WrongCall{{"--size", "10.5x20"}, "--size"}, WrongCall{{"--size", "1e9x1"}, "--size"},
-    WrongCall{{"--size", "10x20x30"}, "--size"}, WrongCall{{"--size", "axb"}, "--size"},
-    WrongCall{{"--cropwindow", "0,1,0"}, "--cropwindow"}, WrongCall{{"--cropwindow", "0,1.5,0,1"}, "0 <= x0"},
-    WrongCall{{"--cropwindow", "0.5,0.5,0,1"}, "--cropwindow"}, WrongCall{{"--cropwindow", "a,b,c,d"}, "--cropwindow"},
-    WrongCall{{"--cropwindow", "nan,1,0,1"}, "--cropwindow"}, WrongCall{{"--pixelbounds", "1,2,3"}, "--pixelbounds"},
-    WrongCall{{"--pixelbounds", "5,4,0,1"}, "no pixel"}, WrongCall{{"--pixelbounds", "0,1e30,0,1"}, "--pixelbounds"},
-    WrongCall{{"--pixelbounds", "0.5,3,0,1"}, "whole numbers"}, WrongCall{{"--pixelbounds", "100,200,0,5"}, "40x30"},
-    WrongCall{{"--frames", "x"}, "--frames"}, WrongCall{{"--frames", "3:1"}, "A <= B"}, WrongCall{{"--frames", "0:1:0"}, "STEP"},
-    WrongCall{{"--frames=-1"}, "--frames"}, WrongCall{{"--frames", "0:9"}, "the dump has 1 frames"}, WrongCall{{"--frames", "1:2:3:4"}, "--frames"},
-    WrongCall{{"--frames", "0.5"}, "--frames"}, WrongCall{{"--spp", "0"}, "--spp"}, WrongCall{{"--spp", "many"}, "--spp"},
-    WrongCall{{"--spp=-3"}, "--spp"}, WrongCall{{"--timeout", "0"}, "--timeout"}, WrongCall{{"--timeout=-1"}, "--timeout"}, WrongCall{{"--timeout", "soon"}, "--timeout"},
-    WrongCall{{"-t", "0"}, "--threads"}, WrongCall{{"--seed=-1"}, "--seed"}, WrongCall{{"--max-depth=-1"}, "--max-depth"},
-    WrongCall{{"--integrator", "magic"}, "--integrator"}, WrongCall{{"--aov", "albdo"}, "albedo"},
-    WrongCall{{"--debug-sample", "1,2"}, "--debug-sample"}, WrongCall{{"--debug-sample", "1,2,-3"}, "--debug-sample"},
-    WrongCall{{"--debug-sample", "40,2,0"}, "40x30"}, WrongCall{{"--debug-sample", "1e30,2,0"}, "--debug-sample"},
-    WrongCall{{"-D", "camera.fov"}, "key=value"}, WrongCall{{"-D", "camera.fovv=3"}, "did you mean 'fov'"},
-    WrongCall{{"-D", "camera.fov=wide"}, "/camera/fov"}, WrongCall{{"-D", "camera.fov.deep=3"}, "-D camera.fov.deep"},
-    WrongCall{{"-o", "FOLDER/name"}, "extension"}, WrongCall{{"-o", "FOLDER/x.unknown"}, ".unknown"},
-    WrongCall{{"-o", "FOLDER/no/x.exr"}, "no folder"}, WrongCall{{"-o", "/proc/x.exr"}, "/proc/x.exr"}, WrongCall{{"-o", "FOLDER/%5x.exr"}, "%04d"},
-    WrongCall{{"--stats-json", "FOLDER/no/stats.json"}, "no/stats.json"}, WrongCall{{"--resume", "-D", "film.size=[0, 1]"}, "/film/size/0"}};
+const std::vector<WrongCall> wrong_calls{WrongCall{{"--no-such-flag"}, "--no-such-flag"},
+                                         WrongCall{{"other.json"}, "other.json"},
+                                         WrongCall{{"--size", "10"}, "--size"},
+                                         WrongCall{{"--size", "10x"}, "--size"},
+                                         WrongCall{{"--size", "0x5"}, "--size"},
+                                         WrongCall{{"--size", "10x-5"}, "--size"},
+                                         WrongCall{{"--size", "10.5x20"}, "--size"},
+                                         WrongCall{{"--size", "1e9x1"}, "--size"},
+                                         WrongCall{{"--size", "10x20x30"}, "--size"},
+                                         WrongCall{{"--size", "axb"}, "--size"},
+                                         WrongCall{{"--cropwindow", "0,1,0"}, "--cropwindow"},
+                                         WrongCall{{"--cropwindow", "0,1.5,0,1"}, "0 <= x0"},
+                                         WrongCall{{"--cropwindow", "0.5,0.5,0,1"}, "--cropwindow"},
+                                         WrongCall{{"--cropwindow", "a,b,c,d"}, "--cropwindow"},
+                                         WrongCall{{"--cropwindow", "nan,1,0,1"}, "--cropwindow"},
+                                         WrongCall{{"--pixelbounds", "1,2,3"}, "--pixelbounds"},
+                                         WrongCall{{"--pixelbounds", "5,4,0,1"}, "no pixel"},
+                                         WrongCall{{"--pixelbounds", "0,1e30,0,1"}, "--pixelbounds"},
+                                         WrongCall{{"--pixelbounds", "0.5,3,0,1"}, "whole numbers"},
+                                         WrongCall{{"--pixelbounds", "100,200,0,5"}, "40x30"},
+                                         WrongCall{{"--frames", "x"}, "--frames"},
+                                         WrongCall{{"--frames", "3:1"}, "A <= B"},
+                                         WrongCall{{"--frames", "0:1:0"}, "STEP"},
+                                         WrongCall{{"--frames=-1"}, "--frames"},
+                                         WrongCall{{"--frames", "0:9"}, "the dump has 1 frames"},
+                                         WrongCall{{"--frames", "1:2:3:4"}, "--frames"},
+                                         WrongCall{{"--frames", "0.5"}, "--frames"},
+                                         WrongCall{{"--spp", "0"}, "--spp"},
+                                         WrongCall{{"--spp", "many"}, "--spp"},
+                                         WrongCall{{"--spp=-3"}, "--spp"},
+                                         WrongCall{{"--timeout", "0"}, "--timeout"},
+                                         WrongCall{{"--timeout=-1"}, "--timeout"},
+                                         WrongCall{{"--timeout", "soon"}, "--timeout"},
+                                         WrongCall{{"-t", "0"}, "--threads"},
+                                         WrongCall{{"--seed=-1"}, "--seed"},
+                                         WrongCall{{"--max-depth=-1"}, "--max-depth"},
+                                         WrongCall{{"--integrator", "magic"}, "--integrator"},
+                                         WrongCall{{"--aov", "albdo"}, "albedo"},
+                                         WrongCall{{"--debug-sample", "1,2"}, "--debug-sample"},
+                                         WrongCall{{"--debug-sample", "1,2,-3"}, "--debug-sample"},
+                                         WrongCall{{"--debug-sample", "40,2,0"}, "40x30"},
+                                         WrongCall{{"--debug-sample", "1e30,2,0"}, "--debug-sample"},
+                                         WrongCall{{"-D", "camera.fov"}, "key=value"},
+                                         WrongCall{{"-D", "camera.fovv=3"}, "did you mean 'fov'"},
+                                         WrongCall{{"-D", "camera.fov=wide"}, "/camera/fov"},
+                                         WrongCall{{"-D", "camera.fov.deep=3"}, "-D camera.fov.deep"},
+                                         WrongCall{{"-o", "FOLDER/name"}, "extension"},
+                                         WrongCall{{"-o", "FOLDER/x.unknown"}, ".unknown"},
+                                         WrongCall{{"-o", "FOLDER/no/x.exr"}, "no folder"},
+                                         WrongCall{{"-o", "/proc/x.exr"}, "/proc/x.exr"},
+                                         WrongCall{{"-o", "FOLDER/%5x.exr"}, "%04d"},
+                                         WrongCall{{"--stats-json", "FOLDER/no/stats.json"}, "no/stats.json"},
+                                         WrongCall{{"--resume", "-D", "film.size=[0, 1]"}, "/film/size/0"}};
 
 TEST_F(Command, WrongCallsAreToldInOneMessageBeforeTheWork)
 {
@@ -309,8 +355,10 @@ TEST_F(Command, WrongCallsAreToldInOneMessageBeforeTheWork)
     for (const WrongCall& call : wrong_calls) {
         SCOPED_TRACE(fmt::format("{}", fmt::join(call.arguments, " ")));
         std::vector<std::string> arguments{"render", scene_, "--spp", "1"};
-        for (const std::string& word : call.arguments) arguments.push_back(replace_all(word, "FOLDER", folder_.path().string()));
-        if (std::find(arguments.begin(), arguments.end(), "-o") == arguments.end()) arguments.insert(arguments.end(), {"-o", path("out.exr")});
+        for (const std::string& word : call.arguments)
+            arguments.push_back(replace_all(word, "FOLDER", folder_.path().string()));
+        if (std::find(arguments.begin(), arguments.end(), "-o") == arguments.end())
+            arguments.insert(arguments.end(), {"-o", path("out.exr")});
         testing::internal::CaptureStderr();
         EXPECT_THAT(message_of(arguments), HasSubstr(call.message));
         EXPECT_THAT(testing::internal::GetCapturedStderr(), testing::Not(HasSubstr("rendering")));
@@ -320,7 +368,8 @@ TEST_F(Command, WrongCallsAreToldInOneMessageBeforeTheWork)
 
 TEST_F(Command, WrongCallsExitWithTwo)
 {
-    for (const std::vector<std::string>& more : {std::vector<std::string>{"--no-such-flag"}, {"--size", "10"}, {"--spp", "0"}, {"-o", path("no/x.exr")}}) {
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{"--no-such-flag"}, {"--size", "10"}, {"--spp", "0"}, {"-o", path("no/x.exr")}}) {
         const ProgramRun run = render(more);
         EXPECT_EQ(run.status, 2) << run.err;
         EXPECT_EQ(run.out, "");

@@ -2,9 +2,9 @@
 
 #include "ingest/meshes/triangle_mesh.h"
 #include "render/grains/library/grain_library.h"
-#include "tests/builders/test_files.h"
 #include "tests/builders/scene_files.h"
 #include "tests/builders/scree_process.h"
+#include "tests/builders/test_files.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -71,7 +71,8 @@ TEST_F(GrainsCommand, ExportsTheSameMeshToEveryFormat)
     const TriangleMesh mesh = make_grain_shape(*find_library_grain("sugar"), options, "test");
     for (const std::string extension : {"obj", "ply", "stl", "off", "PLY"}) {
         const std::string file = path("sugar." + extension);
-        const ProgramRun run = run_scree({"grains", "export", "sugar", "-o", file, "--triangles", "600", "--seed", "3", "--set", "chips=2"});
+        const ProgramRun run = run_scree(
+            {"grains", "export", "sugar", "-o", file, "--triangles", "600", "--seed", "3", "--set", "chips=2"});
         EXPECT_EQ(run.status, 0) << run.err;
         EXPECT_THAT(run.out, HasSubstr("600 triangles"));
         const TriangleMesh read = read_mesh(file);
@@ -88,11 +89,13 @@ TEST_F(GrainsCommand, ExportsTheSameMeshToEveryFormat)
 
 TEST_F(GrainsCommand, ShowsASheet)
 {
-    const ProgramRun run = run_scree({"grains", "show", "sugar", "hairball", "dielectric_sphere", "diffuse_sphere", "-o", path("sheet.png"), "--size", "24", "--spp", "1",
-                                      "--triangles", "300", "--seed", "2"});
+    const ProgramRun run =
+        run_scree({"grains", "show", "sugar", "hairball", "dielectric_sphere", "diffuse_sphere", "-o",
+                   path("sheet.png"), "--size", "24", "--spp", "1", "--triangles", "300", "--seed", "2"});
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_GT(std::filesystem::file_size(path("sheet.png")), 500u);
-    EXPECT_EQ(run_scree({"grains", "show", "flour", "-o", path("one.jpg"), "--size", "24", "--spp", "1", "-q"}).err, "");
+    EXPECT_EQ(run_scree({"grains", "show", "flour", "-o", path("one.jpg"), "--size", "24", "--spp", "1", "-q"}).err,
+              "");
     EXPECT_TRUE(std::filesystem::exists(path("one.jpg")));
 }
 
@@ -136,7 +139,9 @@ TEST_F(GrainsCommand, WrongUseIsExplained)
 // The scene file's library shapes, through to the plan and the picture.
 TEST_F(GrainsCommand, ScenesRenderLibraryGrains)
 {
-    const std::string scene = folder_.write("scene.json", R"({"camera": {"origin": [0, -8, 3], "target": [0, 0, 0]}, "film": {"size": [24, 16], "aov": ["type"]},
+    const std::string scene = folder_.write(
+        "scene.json",
+        R"({"camera": {"origin": [0, -8, 3], "target": [0, 0, 0]}, "film": {"size": [24, 16], "aov": ["type"]},
         "lights": [{"kind": "constant"}],
         "grains": {"unit": "cm", "types": {"sweet": {"shape": {"library": "brown_sugar", "triangles": 500, "seed": 4}}, "ball": {"shape": "diffuse_sphere"},
                              "flake": {"shape": "snowflake", "material": {"kind": "lambert", "reflectance": 0.5}}},
@@ -148,7 +153,8 @@ TEST_F(GrainsCommand, ScenesRenderLibraryGrains)
     EXPECT_THAT(plan.out, HasSubstr("the bounding sphere itself"));
     EXPECT_THAT(plan.out, HasSubstr("of the library's snowflake"));
     const auto hash_of = [&](const std::string& shape) {
-        const ProgramRun run = run_scree({"render", scene, "-o", path("out.exr"), "--spp", "4", "-q", "-D", "grains.types.sweet.shape=" + shape});
+        const ProgramRun run = run_scree(
+            {"render", scene, "-o", path("out.exr"), "--spp", "4", "-q", "-D", "grains.types.sweet.shape=" + shape});
         EXPECT_EQ(run.status, 0) << run.err;
         const test::Picture picture = read_picture(path("out.exr"));
         EXPECT_TRUE(picture.all_finite());
@@ -157,7 +163,8 @@ TEST_F(GrainsCommand, ScenesRenderLibraryGrains)
         return picture.texts.at("sceneHash");
     };
     EXPECT_EQ(hash_of(R"("sugar")"), hash_of(R"("sugar")"));
-    EXPECT_NE(hash_of(R"({"library": "sugar", "triangles": 400})"), hash_of(R"({"library": "sugar", "triangles": 400, "seed": 1})"));
+    EXPECT_NE(hash_of(R"({"library": "sugar", "triangles": 400})"),
+              hash_of(R"({"library": "sugar", "triangles": 400, "seed": 1})"));
 }
 
 } // namespace

@@ -1,9 +1,9 @@
 // `scree grains gsdf` as a user meets it: the built program, its exit codes, messages, files and cache.
 
-#include "tests/builders/shapes.h"
-#include "tests/render/app/cached_command.h"
 #include "tests/builders/scene_files.h"
 #include "tests/builders/scree_process.h"
+#include "tests/builders/shapes.h"
+#include "tests/render/app/cached_command.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -52,7 +52,9 @@ TEST_F(GsdfCommand, TracesOnceAndThenFindsIt)
     ASSERT_EQ(stored().size(), 1u);
     const auto lines = split_lines(first.out);
     ASSERT_EQ(lines.size(), 2u);
-    for (const char* name : {"grain", "seconds", "paths", "error %", "asked", "alpha0", "cosine", "records", "lost", "file"}) EXPECT_THAT(lines[0], HasSubstr(name));
+    for (const char* name :
+         {"grain", "seconds", "paths", "error %", "asked", "alpha0", "cosine", "records", "lost", "file"})
+        EXPECT_THAT(lines[0], HasSubstr(name));
     EXPECT_THAT(lines[1], AllOf(HasSubstr("sphere"), HasSubstr("traced"), HasSubstr(stored()[0].string())));
 
     const auto written = std::filesystem::last_write_time(stored()[0]);
@@ -84,7 +86,10 @@ TEST_F(GsdfCommand, TellsTheTruthInNumbers)
 {
     // Mean cosines of spheres: geometric optics, and -4/9 of the Lambert sphere.
     const std::vector<std::pair<std::vector<std::string>, double>> cases{
-        {{"sphere"}, 0.65009}, {{"sphere", "--ior", "1.31"}, 0.78166}, {{"sphere", "--material", "lambert"}, -4.0 / 9}, {{"diffuse_sphere"}, -4.0 / 9}};
+        {{"sphere"}, 0.65009},
+        {{"sphere", "--ior", "1.31"}, 0.78166},
+        {{"sphere", "--material", "lambert"}, -4.0 / 9},
+        {{"diffuse_sphere"}, -4.0 / 9}};
     for (const auto& [arguments, truth] : cases) {
         const json list = gsdf_json(arguments);
         ASSERT_EQ(list.size(), 1u);
@@ -121,9 +126,11 @@ TEST_F(GsdfCommand, TellsTheTruthInNumbers)
 
 TEST_F(GsdfCommand, MaterialsAreThoseAskedFor)
 {
-    EXPECT_EQ(gsdf_json({"sphere", "--ior", "1.31", "--roughness", "0.5"})[0].at("material"), (json{{"kind", "dielectric"}, {"ior", 1.31}, {"roughness", 0.5}}));
+    EXPECT_EQ(gsdf_json({"sphere", "--ior", "1.31", "--roughness", "0.5"})[0].at("material"),
+              (json{{"kind", "dielectric"}, {"ior", 1.31}, {"roughness", 0.5}}));
     EXPECT_EQ(gsdf_json({"diffuse_sphere"})[0].at("material"), (json{{"kind", "lambert"}}));
-    const json metal = gsdf_json({"sphere", "--material", "conductor", "--eta", "0.5,1,2", "--k", "3"})[0].at("material");
+    const json metal =
+        gsdf_json({"sphere", "--material", "conductor", "--eta", "0.5,1,2", "--k", "3"})[0].at("material");
     EXPECT_EQ(metal, (json{{"kind", "conductor"}, {"eta", {0.5, 1, 2}}, {"k", {3, 3, 3}}, {"roughness", 0}}));
     EXPECT_EQ(stored().size(), 3u); // each of its own
 }
@@ -137,7 +144,8 @@ TEST_F(GsdfCommand, ReadsMeshesAndWritesJsonFiles)
     const json list = json::parse(read_bytes(path("out.json")));
     ASSERT_EQ(list.size(), 2u);
     EXPECT_EQ(list[0].at("name"), mesh);
-    // Alone, alpha0 of a convex body is 1 - its mean shadow (a fourth of its surface) over pi: the box of edge 2 / sqrt(3).
+    // Alone, alpha0 of a convex body is 1 - its mean shadow (a fourth of its surface) over pi: the box of edge 2 /
+    // sqrt(3).
     const double truth = 1 - 2 / std::numbers::pi, paths = list[0].at("paths");
     EXPECT_NEAR(list[0].at("mean_alpha0").get<double>(), truth, 4 * std::sqrt(truth * (1 - truth) / paths));
     EXPECT_EQ(gsdf_json({mesh})[0].at("traced"), false);
@@ -146,7 +154,9 @@ TEST_F(GsdfCommand, ReadsMeshesAndWritesJsonFiles)
 TEST_F(GsdfCommand, TheRendererFindsWhatItMade)
 {
     const std::string mesh = folder_.write("box.obj", obj_text(cube()));
-    const std::string scene = folder_.write("scene.json", R"({"camera": {"kind": "orthographic", "origin": [0, 0, 9], "target": [0, 0, 0], "up": [0, 1, 0], "width": 4},
+    const std::string scene = folder_.write(
+        "scene.json",
+        R"({"camera": {"kind": "orthographic", "origin": [0, 0, 9], "target": [0, 0, 0], "up": [0, 1, 0], "width": 4},
         "film": {"size": [8, 8]}, "lights": [{"kind": "constant", "radiance": 1}],
         "grains": {"types": {"box": {"shape": {"mesh": "box.obj"}, "material": {"kind": "dielectric", "ior": 1.4, "roughness": 0.3}},
                              "flour": {"shape": "flour"}, "other": {"shape": "sphere", "material": {"kind": "lambert", "reflectance": 0.2}}},
@@ -230,7 +240,8 @@ TEST_F(GsdfCommand, RefusesWhatItCannotDo)
 
 TEST_F(GsdfCommand, InterruptedLeavesNothing)
 {
-    const ProgramRun run = run_scree({"grains", "gsdf", "brown_sugar", "--error", "0.001", "--json", path("out.json")}, "tracing grains", 0.2);
+    const ProgramRun run = run_scree({"grains", "gsdf", "brown_sugar", "--error", "0.001", "--json", path("out.json")},
+                                     "tracing grains", 0.2);
     EXPECT_EQ(run.status, 130);
     EXPECT_TRUE(stored().empty());
     EXPECT_FALSE(std::filesystem::exists(path("out.json")));
@@ -238,13 +249,18 @@ TEST_F(GsdfCommand, InterruptedLeavesNothing)
 
 TEST_F(GsdfCommand, DrawsTheErrorMaps)
 {
-    const ProgramRun run = gsdf({"diffuse_sphere", "--figure", path("maps.png"), "--size", "800x520", "--figure-paths", "200000", "--json", path("out.json")});
+    const ProgramRun run = gsdf({"diffuse_sphere", "--figure", path("maps.png"), "--size", "800x520", "--figure-paths",
+                                 "200000", "--json", path("out.json")});
     EXPECT_EQ(run.status, 0) << run.err;
-    for (const char* text : {"mean error %", "p(omega_i | beta_o)", "ours", "factored", "Henyey-Greenstein", "isotropic", "noise floor"}) EXPECT_THAT(run.out, HasSubstr(text));
+    for (const char* text :
+         {"mean error %", "p(omega_i | beta_o)", "ours", "factored", "Henyey-Greenstein", "isotropic", "noise floor"})
+        EXPECT_THAT(run.out, HasSubstr(text));
     const std::string png = read_bytes(path("maps.png"));
     ASSERT_GT(png.size(), 1000u);
     EXPECT_EQ(png.substr(1, 3), "PNG");
-    const auto size_at = [&](size_t i) { return 256 * static_cast<unsigned char>(png[i + 2]) + static_cast<unsigned char>(png[i + 3]); };
+    const auto size_at = [&](size_t i) {
+        return 256 * static_cast<unsigned char>(png[i + 2]) + static_cast<unsigned char>(png[i + 3]);
+    };
     EXPECT_EQ(size_at(16), 800);
     EXPECT_EQ(size_at(20), 520);
 
@@ -253,7 +269,8 @@ TEST_F(GsdfCommand, DrawsTheErrorMaps)
     EXPECT_GE(figure.at("paths").get<uint64_t>(), 200000u);
     const json &forms = figure.at("mean_error"), &noise = figure.at("noise_floor");
     for (const char* kind : {"direction", "full"}) {
-        for (const char* form : {"gsdf", "factored", "hg", "isotropic"}) EXPECT_GT(forms.at(form).at(kind).get<double>(), 0) << form;
+        for (const char* form : {"gsdf", "factored", "hg", "isotropic"})
+            EXPECT_GT(forms.at(form).at(kind).get<double>(), 0) << form;
         // The GSDF's own error is 20 % at most; the forms without its directions are further off.
         EXPECT_LT(forms.at("gsdf").at(kind).get<double>(), std::hypot(0.2, noise.at(kind).get<double>()));
         EXPECT_GT(forms.at("isotropic").at(kind).get<double>(), 1);

@@ -1,6 +1,6 @@
+#include "ingest/particles/vdb_points.h"
 #include "render/app/convert_command.h"
 #include "render/app/info_command.h"
-#include "ingest/particles/vdb_points.h"
 #include "tests/builders/test_files.h"
 
 #include <CLI/CLI.hpp>
@@ -13,9 +13,11 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-const std::string beads = "ITEM: UNITS\nsi\nITEM: TIME\n0.5\nITEM: TIMESTEP\n100\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS pp pp ff\n0 4\n0 4\n0 4\n"
+const std::string beads = "ITEM: UNITS\nsi\nITEM: TIME\n0.5\nITEM: TIMESTEP\n100\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX "
+                          "BOUNDS pp pp ff\n0 4\n0 4\n0 4\n"
                           "ITEM: ATOMS id type x y z radius\n7 2 3 1 1 0.5\n5 1 1 1 1 0.5\n6 1 1 1 1.75 0.5\n";
-const std::string bare = "ITEM: TIMESTEP\n200\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp ff\n0 4\n0 4\n0 4\nITEM: ATOMS id type x y z\n1 1 1 1 1\n2 2 3 3 3\n";
+const std::string bare = "ITEM: TIMESTEP\n200\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp ff\n0 4\n0 4\n0 "
+                         "4\nITEM: ATOMS id type x y z\n1 1 1 1 1\n2 2 3 3 3\n";
 const std::string tetrahedron = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 
 class IngestCommands : public testing::Test {
@@ -75,8 +77,10 @@ TEST_F(IngestCommands, InfoWithoutRadii)
     EXPECT_THAT(d["notes"].dump(), HasSubstr("--radius"));
     EXPECT_EQ(info({file, "--radius", "0.25"})["radius"]["min"], 0.25);
     EXPECT_EQ(info({"--radius", "0.25", file})["radius"]["min"], 0.25);
-    for (const std::vector<std::string>& words : {std::vector<std::string>{file, "--radius", "1=0.25", "2=0.5"}, {"--radius", "1=0.25,2=0.5", file},
-                                                  {"--radius=1=0.25", "--radius", "2=0.5", file}, {"--radius", "1=0.25", "2=0.5", file}})
+    for (const std::vector<std::string>& words : {std::vector<std::string>{file, "--radius", "1=0.25", "2=0.5"},
+                                                  {"--radius", "1=0.25,2=0.5", file},
+                                                  {"--radius=1=0.25", "--radius", "2=0.5", file},
+                                                  {"--radius", "1=0.25", "2=0.5", file}})
         EXPECT_EQ(info(words)["radius"]["max"], 0.5);
     EXPECT_THROW(info({file, "--radius", "1=0.25"}), InputError);
     EXPECT_THROW(info({file, "--radius", "small"}), InputError);
@@ -121,7 +125,8 @@ TEST_F(IngestCommands, InfoForPeople)
 
 TEST_F(IngestCommands, InfoOfAnEmptyFrame)
 {
-    const json d = info({folder_.write("a.dump", "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n0\nITEM: BOX BOUNDS\n0 1\n0 1\n0 1\nITEM: ATOMS id x y z radius\n")});
+    const json d = info({folder_.write("a.dump", "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n0\nITEM: BOX BOUNDS\n0 "
+                                                 "1\n0 1\n0 1\nITEM: ATOMS id x y z radius\n")});
     EXPECT_EQ(d["particles"], json({0}));
     EXPECT_TRUE(d["radius"].is_null());
     EXPECT_EQ(d["pack_rate"], 0.0);
@@ -149,10 +154,12 @@ TEST_F(IngestCommands, ConvertLeavesNothingBehindWhenItFails)
 TEST_F(IngestCommands, ConvertToVdbAndBack)
 {
     // Far from the origin, turned, in a tilted box: all must come back.
-    const std::string file = folder_.write(
-        "a.dump", "ITEM: TIME\n0.25\nITEM: TIMESTEP\n9\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS xy xz yz pp ff pp\n9999990 10000020 2\n0 10 0\n0 10 0\n"
-                  "ITEM: ATOMS id type x y z radius quatw quati quatj quatk\n"
-                  "3 -4 10000000.001 1 2 0.5 1 0 0 0\n1 2 10000000.003 5 6 0.001 0.6 0.8 0 0\n2 7 10000015 5 9 2 0.5 0.5 0.5 -0.5\n");
+    const std::string file =
+        folder_.write("a.dump", "ITEM: TIME\n0.25\nITEM: TIMESTEP\n9\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS xy xz "
+                                "yz pp ff pp\n9999990 10000020 2\n0 10 0\n0 10 0\n"
+                                "ITEM: ATOMS id type x y z radius quatw quati quatj quatk\n"
+                                "3 -4 10000000.001 1 2 0.5 1 0 0 0\n1 2 10000000.003 5 6 0.001 0.6 0.8 0 0\n2 7 "
+                                "10000015 5 9 2 0.5 0.5 0.5 -0.5\n");
     const std::string out = folder_.path("out.vdb").string();
     run({"convert", file, out});
     const ParticleFrame frame = read_vdb_points(out);

@@ -1,9 +1,10 @@
-// Media as a user meets them: scenes with media, `--grain-depth`, `--integrator vpt` and `scree info --medium`, by the built program.
+// Media as a user meets them: scenes with media, `--grain-depth`, `--integrator vpt` and `scree info --medium`, by the
+// built program.
 
-#include "tests/builders/shapes.h"
-#include "tests/render/app/cached_command.h"
 #include "tests/builders/scene_files.h"
 #include "tests/builders/scree_process.h"
+#include "tests/builders/shapes.h"
+#include "tests/render/app/cached_command.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -27,8 +28,10 @@ protected:
     /// Writes a scene looking at the origin under a white sky, with these keys besides.
     std::string scene(const std::string& keys) const
     {
-        write("scene.json", R"({"camera": {"origin": [0, -9, 5], "target": [0, 0, 0]}, "film": {"size": [16, 12], "filter": "box"},
-            "lights": [{"kind": "constant", "radiance": 1}], )" + keys + "}");
+        write("scene.json",
+              R"({"camera": {"origin": [0, -9, 5], "target": [0, 0, 0]}, "film": {"size": [16, 12], "filter": "box"},
+            "lights": [{"kind": "constant", "radiance": 1}], )" +
+                  keys + "}");
         return path("scene.json");
     }
     /// 729 white spheres of radius 1/4 on a lattice.
@@ -36,15 +39,17 @@ protected:
     {
         std::string list;
         for (int i = 0; i < 729; ++i) {
-            list += (i ? ", " : "") + std::string(R"({"center": [)") + std::to_string(0.5 * (i % 9 - 4)) + ", " + std::to_string(0.5 * (i / 9 % 9 - 4)) + ", " + std::to_string(0.5 * (i / 81 - 4)) +
+            list += (i ? ", " : "") + std::string(R"({"center": [)") + std::to_string(0.5 * (i % 9 - 4)) + ", " +
+                    std::to_string(0.5 * (i / 9 % 9 - 4)) + ", " + std::to_string(0.5 * (i / 81 - 4)) +
                     R"(], "radius": 0.25})";
         }
-        return R"("grains": {"types": {"chalk": {"shape": "sphere", "material": {"kind": "lambert", "reflectance": )" + std::to_string(reflectance) +
-               R"(}}}, "assembly": {"spheres": [)" + list + "]}}";
+        return R"("grains": {"types": {"chalk": {"shape": "sphere", "material": {"kind": "lambert", "reflectance": )" +
+               std::to_string(reflectance) + R"(}}}, "assembly": {"spheres": [)" + list + "]}}";
     }
     ProgramRun render(const std::string& keys, std::vector<std::string> more = {}) const
     {
-        std::vector<std::string> arguments{"render", scene(keys), "-o", path("out.exr"), "--spp", "4", "--accuracy", "draft"};
+        std::vector<std::string> arguments{"render", scene(keys), "-o",         path("out.exr"),
+                                           "--spp",  "4",         "--accuracy", "draft"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run_scree(arguments);
     }
@@ -58,7 +63,8 @@ protected:
 
 TEST_F(MediumCommand, TellsAMediumInTheUnitOfTheScene)
 {
-    const json media = info(R"("medium": [{"mesh": "slab.obj", "sigma_t": [1, 2, 4], "albedo": 0.75, "g": 0.5}])")["media"];
+    const json media =
+        info(R"("medium": [{"mesh": "slab.obj", "sigma_t": [1, 2, 4], "albedo": 0.75, "g": 0.5}])")["media"];
     ASSERT_EQ(media.size(), 1u);
     EXPECT_EQ(media[0]["name"], "slab.obj");
     EXPECT_EQ(media[0]["sigma_t"], (json{1, 2, 4}));
@@ -81,24 +87,32 @@ TEST_F(MediumCommand, TellsTheMediumOfGrains)
     EXPECT_NEAR(found["void_flight"].get<double>(), 4 * (1 - f) * 0.25 / (3 * f), 1e-3);
     EXPECT_NEAR(found["grain_g"].get<double>(), -4.0 / 9, 0.01);
     EXPECT_NEAR(found["grain_albedo"].get<double>(), 0.8, 0.01);
-    for (const char* form : {"plain", "formula", "walk", "decay"}) EXPECT_GT(found["forms"][form]["sigma_t"].get<double>(), 0) << form;
+    for (const char* form : {"plain", "formula", "walk", "decay"})
+        EXPECT_GT(found["forms"][form]["sigma_t"].get<double>(), 0) << form;
 }
 
 TEST_F(MediumCommand, RendersMediaAndGrainsAsMedia)
 {
     const std::string white = grains(1);
-    for (const std::vector<std::string>& how : {std::vector<std::string>{"--integrator", "vpt"}, {"--integrator", "ppt", "--grain-depth", "3"}, {"--integrator", "ept", "--grain-depth", "3", "--medium-form", "plain"}}) {
-        const ProgramRun run = render(white + R"(, "medium": [{"mesh": "slab.obj", "sigma_t": [0.5, 1, 2], "albedo": 1}])", how);
+    for (const std::vector<std::string>& how :
+         {std::vector<std::string>{"--integrator", "vpt"},
+          {"--integrator", "ppt", "--grain-depth", "3"},
+          {"--integrator", "ept", "--grain-depth", "3", "--medium-form", "plain"}}) {
+        const ProgramRun run =
+            render(white + R"(, "medium": [{"mesh": "slab.obj", "sigma_t": [0.5, 1, 2], "albedo": 1}])", how);
         ASSERT_EQ(run.status, 0) << run.err;
         const Picture picture = read_picture(path("out.exr"));
-        for (const char* channel : {"R", "G", "B"}) EXPECT_NEAR(picture.mean(channel), 1, channel[0] == 'G' ? 0.05 : 0.3) << how[1]; // nothing is lost; spectral MIS is noisy
+        for (const char* channel : {"R", "G", "B"})
+            EXPECT_NEAR(picture.mean(channel), 1, channel[0] == 'G' ? 0.05 : 0.3)
+                << how[1]; // nothing is lost; spectral MIS is noisy
         EXPECT_EQ(picture.texts.at("integrator"), how[1]);
         EXPECT_EQ(picture.texts.at("mediumForm"), how.size() > 4 ? "plain" : "decay");
     }
     const ProgramRun plan = render(white, {"--integrator", "ppt", "--grain-depth", "3", "--plan"});
     EXPECT_THAT(plan.out, HasSubstr("medium of the grains"));
     EXPECT_THAT(plan.out, HasSubstr("3 mean radii"));
-    EXPECT_THAT(render(white, {"--integrator", "ppt", "--plan"}).out, HasSubstr("the integrator traces grains everywhere"));
+    EXPECT_THAT(render(white, {"--integrator", "ppt", "--plan"}).out,
+                HasSubstr("the integrator traces grains everywhere"));
     EXPECT_THAT(render(R"("medium": [])", {"--plan"}).out, HasSubstr("skipped  medium "));
     const ProgramRun thin = render(white, {"--integrator", "ppt", "--grain-depth", "100", "--stats"});
     EXPECT_EQ(thin.status, 0);

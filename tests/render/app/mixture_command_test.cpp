@@ -1,5 +1,5 @@
-#include "render/app/mixture_command.h"
 #include "mixtures/pattern_statistics.h"
+#include "render/app/mixture_command.h"
 #include "tests/builders/test_files.h"
 #include "tests/mixtures/mixture_builders.h"
 
@@ -50,12 +50,16 @@ TEST_F(MixtureCommand, NewWritesEveryKind)
     EXPECT_EQ(made({"single", "glass"}), json::parse(R"({"kind": "single", "type": "glass"})"));
     EXPECT_EQ(made({"random", "a=3", "b=1", "--by", "volume", "--seed", "7"}),
               json::parse(R"({"kind": "random", "types": ["a", "b"], "weights": [3, 1], "by": "volume", "seed": 7})"));
-    EXPECT_EQ(made({"perlin", "a", "b", "--scale", "3", "--fraction", "0.25", "--octaves", "3"}),
-              json::parse(R"({"kind": "perlin", "types": ["a", "b"], "scale": 3, "octaves": 3, "fraction": [0.25, 0.75]})"));
+    EXPECT_EQ(
+        made({"perlin", "a", "b", "--scale", "3", "--fraction", "0.25", "--octaves", "3"}),
+        json::parse(R"({"kind": "perlin", "types": ["a", "b"], "scale": 3, "octaves": 3, "fraction": [0.25, 0.75]})"));
     EXPECT_EQ(made({"checkerboard", "a", "b", "--cell", "1,2,3", "--offset", "-1,0,0"}),
               json::parse(R"({"kind": "checkerboard", "types": ["a", "b"], "cell": [1, 2, 3], "offset": [-1, 0, 0]})"));
-    EXPECT_EQ(made({"layers", "a=1", "b=2", "--direction", "0,1,0", "--jitter", "0.5", "--jitter-scale", "2", "--repeat", "false"}),
-              json::parse(R"({"kind": "layers", "types": ["a", "b"], "thicknesses": [1, 2], "direction": [0, 1, 0], "repeat": false,
+    EXPECT_EQ(
+        made({"layers", "a=1", "b=2", "--direction", "0,1,0", "--jitter", "0.5", "--jitter-scale", "2", "--repeat",
+              "false"}),
+        json::parse(
+            R"({"kind": "layers", "types": ["a", "b"], "thicknesses": [1, 2], "direction": [0, 1, 0], "repeat": false,
                               "jitter": {"amplitude": 0.5, "scale": 2}})"));
     EXPECT_EQ(made({"radius", "a", "b", "--thresholds", "0.4"}),
               json::parse(R"({"kind": "radius", "types": ["a", "b"], "thresholds": [0.4]})"));
@@ -105,7 +109,8 @@ TEST_F(MixtureCommand, PreviewDrawsAndMeasures)
 
 TEST_F(MixtureCommand, CheckFindsWhatDoesNotFit)
 {
-    const std::string scene = folder_.write("scene.json", R"({"grains": {"types": {"glass": {}, "sugar": {}, "salt": {}}}})");
+    const std::string scene =
+        folder_.write("scene.json", R"({"grains": {"types": {"glass": {}, "sugar": {}, "salt": {}}}})");
     run({"new", "random", "glas=1", "sugar=1", "-o", path("m.json")});
     const auto error = test::input_error_of([&] { run({"check", path("m.json"), scene}); });
     ASSERT_TRUE(error);
@@ -135,8 +140,8 @@ TEST(PatternStatistics, IntervalsHoldTheirLevel)
 
 TEST(PatternStatistics, CorrelationLengthOfLayersIsAsReckoned)
 {
-    // Layers of thickness t in turns: over a distance d in direction cosine c the correlation is a triangle wave of |c| d,
-    // 1 - 2 |c| d / t up to t; the mean over directions is 1 - d / t while d < t, so it falls to 1/e at t (1 - 1/e).
+    // Layers of thickness t in turns: over a distance d in direction cosine c the correlation is a triangle wave of |c|
+    // d, 1 - 2 |c| d / t up to t; the mean over directions is 1 - d / t while d < t, so it falls to 1/e at t (1 - 1/e).
     const ParticleFrame frame = test::random_spheres(200000, 60);
     const double t = 12;
     const auto mixture = test::mixture_of(R"({"kind": "layers", "types": ["a", "b"], "thicknesses": 12})", &frame);

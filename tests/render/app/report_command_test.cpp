@@ -21,7 +21,8 @@ using nlohmann::json;
 using testing::HasSubstr;
 using Tree = boost::property_tree::ptree;
 
-const std::string cube_off = "OFF\n8 12 0\n-1 -1 -1\n1 -1 -1\n1 1 -1\n-1 1 -1\n-1 -1 1\n1 -1 1\n1 1 1\n-1 1 1\n3 0 2 1\n3 0 3 2\n3 4 5 6\n3 4 6 7\n"
+const std::string cube_off = "OFF\n8 12 0\n-1 -1 -1\n1 -1 -1\n1 1 -1\n-1 1 -1\n-1 -1 1\n1 -1 1\n1 1 1\n-1 1 1\n3 0 2 "
+                             "1\n3 0 3 2\n3 4 5 6\n3 4 6 7\n"
                              "3 0 1 5\n3 0 5 4\n3 1 2 6\n3 1 6 5\n3 2 3 7\n3 2 7 6\n3 3 0 4\n3 3 4 7\n";
 
 size_t count_tags(const Tree& tree, const std::string& name)
@@ -52,13 +53,17 @@ protected:
     }
 
     /// A LAMMPS dump of the frame; non-periodic without box.
-    std::string dump(const std::string& name, const ParticleFrame& frame, const std::string& boundary = "pp pp pp") const
+    std::string dump(const std::string& name, const ParticleFrame& frame,
+                     const std::string& boundary = "pp pp pp") const
     {
-        const Imath::V3d box = frame.box ? frame.box->edges[0] + frame.box->edges[1] + frame.box->edges[2] : Imath::V3d(100);
-        std::string text = fmt::format("ITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS {}\n0 {:.17g}\n0 {:.17g}\n0 {:.17g}\nITEM: ATOMS id type x y z radius\n",
+        const Imath::V3d box =
+            frame.box ? frame.box->edges[0] + frame.box->edges[1] + frame.box->edges[2] : Imath::V3d(100);
+        std::string text = fmt::format("ITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS {}\n0 "
+                                       "{:.17g}\n0 {:.17g}\n0 {:.17g}\nITEM: ATOMS id type x y z radius\n",
                                        frame.size(), boundary, box.x, box.y, box.z);
         for (size_t i = 0; i < frame.size(); ++i)
-            text += fmt::format("{} 1 {:.17g} {:.17g} {:.17g} {}\n", frame.id[i], frame.position[i].x, frame.position[i].y, frame.position[i].z, frame.radius[i]);
+            text += fmt::format("{} 1 {:.17g} {:.17g} {:.17g} {}\n", frame.id[i], frame.position[i].x,
+                                frame.position[i].y, frame.position[i].z, frame.radius[i]);
         return folder_.write(name, text);
     }
     json report(std::vector<std::string> words)
@@ -90,7 +95,8 @@ TEST_F(ReportCommand, HtmlIsWellFormedAndSelfContained)
     EXPECT_EQ(count_tags(tree, "svg"), 2 * count_tags(tree, "figure"));
     EXPECT_GE(count_tags(tree, "figure"), 9u);
     EXPECT_EQ(count_tags(tree, "script"), 0u);
-    for (const char* outside : {"href=", "src=", "url(", "@import"}) EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+    for (const char* outside : {"href=", "src=", "url(", "@import"})
+        EXPECT_EQ(page.find(outside), std::string::npos) << outside;
     EXPECT_THAT(page, HasSubstr("a &lt;&amp;&gt; b.dump"));
     EXPECT_EQ(page.find("nan"), std::string::npos);
     const json j = json::parse(test::read_bytes(numbers));
@@ -119,7 +125,8 @@ TEST_F(ReportCommand, OneSphere)
     const json periodic = report({dump("one.dump", test::periodic_frame({Imath::V3d(1)}, {0.5f}, Imath::V3d(4)))});
     EXPECT_EQ(verdict(periodic, "fraction"), "PASS");
     EXPECT_NEAR(periodic["fraction"]["by_volume"].get<double>(), M_PI / 6 / 64, 1e-9);
-    const json alone = report({dump("alone.dump", test::periodic_frame({Imath::V3d(1)}, {0.5f}, Imath::V3d(4)), "ff ff ff")});
+    const json alone =
+        report({dump("alone.dump", test::periodic_frame({Imath::V3d(1)}, {0.5f}, Imath::V3d(4)), "ff ff ff")});
     EXPECT_EQ(verdict(alone, "fraction"), "INFO");
     EXPECT_EQ(alone["spheres"], 1);
 }
@@ -137,7 +144,7 @@ TEST_F(ReportCommand, InAMesh)
     ParticleFrame frame = test::scaled(test::lattice("sc", 10, 0.495f), 0.2);
     for (Imath::V3d& p : frame.position) p -= Imath::V3d(0.9);
     frame.position[17].x += 0.05; // into its neighbour, not out
-    frame.position[9].x = 0.95;   // 0.049 out of the cube
+    frame.position[9].x = 0.95; // 0.049 out of the cube
     const std::string mesh = folder_.write("cube.off", cube_off);
     const json j = report({dump("grid.dump", frame), "--mesh", mesh});
     EXPECT_EQ(verdict(j, "containment"), "FAIL");
@@ -161,7 +168,8 @@ TEST_F(ReportCommand, PointsOfOpenVdb)
 
 TEST_F(ReportCommand, FramesFromEitherEnd)
 {
-    const std::string two = test::read_bytes(dump("a.dump", test::lattice("sc", 2))) + test::read_bytes(dump("b.dump", test::lattice("sc", 3)));
+    const std::string two = test::read_bytes(dump("a.dump", test::lattice("sc", 2))) +
+                            test::read_bytes(dump("b.dump", test::lattice("sc", 3)));
     const std::string file = folder_.write("two.dump", two);
     EXPECT_EQ(report({file})["spheres"], 27);
     EXPECT_EQ(report({file, "--frame", "0"})["spheres"], 8);
@@ -189,11 +197,18 @@ TEST_F(ReportCommand, RadiiThatAreNoneOrWrong)
 TEST_F(ReportCommand, BadInputLeavesNothingBehind)
 {
     const std::string out = folder_.write("out.html", "as it was");
-    const std::string empty = folder_.write("empty.dump", "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n0\nITEM: BOX BOUNDS\n0 1\n0 1\n0 1\nITEM: ATOMS id x y z radius\n");
+    const std::string empty = folder_.write(
+        "empty.dump",
+        "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n0\nITEM: BOX BOUNDS\n0 1\n0 1\n0 1\nITEM: ATOMS id x y z radius\n");
     const std::string good = dump("good.dump", test::lattice("sc", 2));
     const std::string open_mesh = folder_.write("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-             {empty}, {folder_.path("none.dump").string()}, {folder_.write("no.vdb", "hello")}, {good, "--mesh", open_mesh}, {good, "--mesh", folder_.path("none.off").string()}, {good, good}}) {
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{empty},
+                                               {folder_.path("none.dump").string()},
+                                               {folder_.write("no.vdb", "hello")},
+                                               {good, "--mesh", open_mesh},
+                                               {good, "--mesh", folder_.path("none.off").string()},
+                                               {good, good}}) {
         std::vector<std::string> command = words;
         command.insert(command.end(), {"-q", "-o", out});
         EXPECT_THROW(run(command), InputError) << words[0];
@@ -201,7 +216,8 @@ TEST_F(ReportCommand, BadInputLeavesNothingBehind)
     }
     EXPECT_THROW(run({good, "-o", folder_.path("report.pdf").string()}), InputError);
     EXPECT_THROW(run({good, "-o", folder_.path("nowhere/report.html").string()}), InputError);
-    for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) EXPECT_EQ(entry.path().extension() == ".tmp", false);
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+        EXPECT_EQ(entry.path().extension() == ".tmp", false);
 }
 
 } // namespace

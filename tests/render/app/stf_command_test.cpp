@@ -1,7 +1,7 @@
 // `scree grains stf` as a user meets it: the built program, its exit codes, messages, files and cache.
 
-#include "tests/render/app/cached_command.h"
 #include "tests/builders/scree_process.h"
+#include "tests/render/app/cached_command.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -37,7 +37,8 @@ TEST_F(StfCommand, PartsOfLightSumToAllOfIt)
         ASSERT_EQ(medium["shells"].size(), 5u); // 1, sqrt 2, 2, 2 sqrt 2, 4
         double last = 1;
         for (const json& shell : medium["shells"]) {
-            const double unscattered = shell["unscattered"], single = shell["single"], multiple = shell["multiple"], radius = shell["radius"];
+            const double unscattered = shell["unscattered"], single = shell["single"], multiple = shell["multiple"],
+                         radius = shell["radius"];
             EXPECT_NEAR(unscattered, std::exp(-radius), 1e-6);
             EXPECT_NEAR(unscattered + single + multiple, 1, 1e-5);
             EXPECT_LT(unscattered, last);
@@ -45,10 +46,14 @@ TEST_F(StfCommand, PartsOfLightSumToAllOfIt)
             const json& dim = shell["at_albedo"];
             EXPECT_NEAR(dim["single"].get<double>(), 0.9 * single, 1e-4);
             EXPECT_LT(dim["multiple"].get<double>(), 0.81 * multiple + 1e-6); // two scatterings at least
-            EXPECT_NEAR(unscattered + dim["single"].get<double>() + dim["multiple"].get<double>() + dim["absorbed"].get<double>(), 1, 1e-5);
+            EXPECT_NEAR(unscattered + dim["single"].get<double>() + dim["multiple"].get<double>() +
+                            dim["absorbed"].get<double>(),
+                        1, 1e-5);
             // What walks keep in the mean (stf_builder.cpp).
             const double g = medium["phase_function"]["mean_cosine"];
-            EXPECT_NEAR((1 - g) * radius * shell["mean_cosine_theta_t"].get<double>() + shell["mean_cosine_in_out"].get<double>(), 1, 1e-3);
+            EXPECT_NEAR((1 - g) * radius * shell["mean_cosine_theta_t"].get<double>() +
+                            shell["mean_cosine_in_out"].get<double>(),
+                        1, 1e-3);
         }
     }
 }
@@ -65,7 +70,8 @@ TEST_F(StfCommand, TakesGrainsFromTheCacheAndSaysTheSameAgain)
 
 TEST_F(StfCommand, PrintsATableAndDrawsAFigure)
 {
-    const ProgramRun run = stf({"--g", "0.8", "--radius", "4", "--figure", path("shells.png"), "--figure-walks", "20000"});
+    const ProgramRun run =
+        stf({"--g", "0.8", "--radius", "4", "--figure", path("shells.png"), "--figure-walks", "20000"});
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_THAT(run.out, HasSubstr("unscattered"));
     EXPECT_THAT(run.out, HasSubstr("g=0.8"));

@@ -1,5 +1,5 @@
-#include "render/app/pack_command.h"
 #include "packing/tiles/packing_tile.h"
+#include "render/app/pack_command.h"
 #include "tests/builders/test_files.h"
 
 #include <CLI/CLI.hpp>
@@ -45,11 +45,13 @@ protected:
     /// A dump of an n^3 lattice of spheres of radius `radius` at spacing 1, with two types.
     std::string lattice(int n, double radius, const std::string& bounds = "pp pp pp")
     {
-        std::string text = fmt::format("ITEM: TIMESTEP\n5\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS {}\n", n * n * n, bounds);
+        std::string text =
+            fmt::format("ITEM: TIMESTEP\n5\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS {}\n", n * n * n, bounds);
         for (int axis = 0; axis < 3; ++axis) text += fmt::format("{} {}\n", -1.0 * axis, -1.0 * axis + n);
         text += "ITEM: ATOMS id type x y z radius\n";
         for (int i = 0; i < n * n * n; ++i)
-            text += fmt::format("{} {} {} {} {} {}\n", i + 1, i % 2 + 1, i % n + 0.03 * (i % 5), i / n % n - 1.0 + 0.03 * (i % 7), i / n / n - 2.0, radius);
+            text += fmt::format("{} {} {} {} {} {}\n", i + 1, i % 2 + 1, i % n + 0.03 * (i % 5),
+                                i / n % n - 1.0 + 0.03 * (i % 7), i / n / n - 2.0, radius);
         return folder_.write("lattice.dump", text);
     }
 
@@ -58,7 +60,8 @@ protected:
 
 TEST_F(TileCommand, WritesTheSameBytesForTheSameSeed)
 {
-    const std::vector<std::string> words{"--spheres", "200", "--fraction", "0.4", "--sweeps", "50", "--variants", "2", "--seed", "3", "-q"};
+    const std::vector<std::string> words{"--spheres",  "200", "--fraction", "0.4", "--sweeps", "50",
+                                         "--variants", "2",   "--seed",     "3",   "-q"};
     const auto make = [&](const std::string& name, const std::vector<std::string>& more) {
         std::vector<std::string> all{"-o", path(name)};
         all.insert(all.end(), words.begin(), words.end());
@@ -75,14 +78,16 @@ TEST_F(TileCommand, WritesTheSameBytesForTheSameSeed)
 
 TEST_F(TileCommand, TellsWhatItMade)
 {
-    const std::string text = run({"-o", path("a.vdb"), "--spheres", "300", "--sizes", "bidisperse", "ratio=2", "share=0.2", "--variants", "2", "--size", "1x2x1"});
+    const std::string text = run({"-o", path("a.vdb"), "--spheres", "300", "--sizes", "bidisperse", "ratio=2",
+                                  "share=0.2", "--variants", "2", "--size", "1x2x1"});
     EXPECT_THAT(text, HasSubstr("300 spheres, two radii, ratio 2, the larger 20 % by number"));
     EXPECT_THAT(text, HasSubstr("1 x 2 x 1"));
     EXPECT_THAT(text, HasSubstr("2 variants"));
     EXPECT_THAT(text, HasSubstr("jammed"));
     EXPECT_THAT(text, HasSubstr("smallest gap"));
     EXPECT_GT(read_tile(path("a.vdb")).fraction(), 0.58);
-    EXPECT_THAT(run({"-o", path("b.vdb"), "--spheres", "300", "--fraction", "0.2", "--variants", "1"}), HasSubstr("hard-sphere fluid after"));
+    EXPECT_THAT(run({"-o", path("b.vdb"), "--spheres", "300", "--fraction", "0.2", "--variants", "1"}),
+                HasSubstr("hard-sphere fluid after"));
 }
 
 TEST_F(TileCommand, CutsATileOutOfASimulation)
@@ -114,17 +119,21 @@ TEST_F(TileCommand, OnlyPeriodicCuboidsCanBeCut)
     EXPECT_THAT(error({"-o", path("a.vdb"), "--from", lattice(4, 0.4, "pp ff pp")}), HasSubstr("not periodic along y"));
     EXPECT_THAT(error({"-o", path("a.vdb"), "--from", lattice(4, 0.4, "pp ff pp")}), HasSubstr("--region"));
     EXPECT_FALSE(std::filesystem::exists(path("a.vdb")));
-    run({"-o", path("a.vdb"), "--from", lattice(6, 0.4, "pp ff pp"), "--region", "0.5,5.5,-0.5,4.5,-1.5,3.5", "--variants", "1"});
+    run({"-o", path("a.vdb"), "--from", lattice(6, 0.4, "pp ff pp"), "--region", "0.5,5.5,-0.5,4.5,-1.5,3.5",
+         "--variants", "1"});
     EXPECT_EQ(read_tile(path("a.vdb")).size, Imath::V3d(5));
-    EXPECT_THAT(error({"-o", path("a.vdb"), "--from", lattice(4, 0.4), "--region", "0,1,0,1,5,4"}), HasSubstr("--region"));
-    EXPECT_THAT(error({"-o", path("a.vdb"), "--from", lattice(4, 0.4), "--region", "50,60,0,10,0,10"}), HasSubstr("no particle in the region"));
+    EXPECT_THAT(error({"-o", path("a.vdb"), "--from", lattice(4, 0.4), "--region", "0,1,0,1,5,4"}),
+                HasSubstr("--region"));
+    EXPECT_THAT(error({"-o", path("a.vdb"), "--from", lattice(4, 0.4), "--region", "50,60,0,10,0,10"}),
+                HasSubstr("no particle in the region"));
     EXPECT_THAT(error({"-o", path("a.vdb"), "--from", lattice(4, 3)}), HasSubstr("1.5 of the largest diameter"));
 }
 
 TEST_F(TileCommand, DrawsRadiiFromADump)
 {
     const std::string dump = std::string(SCREE_EXAMPLES) + "/pour/pour.0009.dump.gz";
-    run({"-o", path("a.vdb"), "--radii-from", dump, "--spheres", "300", "--fraction", "0.3", "--variants", "1", "--sweeps", "5"});
+    run({"-o", path("a.vdb"), "--radii-from", dump, "--spheres", "300", "--fraction", "0.3", "--variants", "1",
+         "--sweeps", "5"});
     EXPECT_EQ(read_tile(path("a.vdb")).rows(), 300u);
 }
 
@@ -140,7 +149,8 @@ TEST_F(TileCommand, BadWordsAreTold)
     EXPECT_THAT(error({"-o", path("no/such/a.vdb"), "--spheres", "100"}), HasSubstr("no/such"));
     EXPECT_THAT(error({"-o", path("a.vdb"), "--from", "a", "--radii-from", "b"}), HasSubstr("one of them"));
     EXPECT_THAT(error({"-o", path("a.vdb"), "--region", "0,1,0,1,0,1"}), HasSubstr("--from"));
-    EXPECT_THAT(error({"-o", path("a.vdb"), "--spheres", "200", "--fraction", "0.7", "--variants", "1"}), HasSubstr("at most 0.6"));
+    EXPECT_THAT(error({"-o", path("a.vdb"), "--spheres", "200", "--fraction", "0.7", "--variants", "1"}),
+                HasSubstr("at most 0.6"));
     EXPECT_FALSE(std::filesystem::exists(path("a.vdb")));
 }
 

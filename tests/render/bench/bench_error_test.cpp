@@ -37,7 +37,8 @@ struct Noise {
     }
 };
 
-/// A picture of two halves, of which each pixel deviates by `deviation` of the truth, and the whole is `factor` times as bright as it should be.
+/// A picture of two halves, of which each pixel deviates by `deviation` of the truth, and the whole is `factor` times
+/// as bright as it should be.
 HalfPictures picture_of(double factor, double deviation, Noise& noise)
 {
     HalfPictures picture;
@@ -73,7 +74,8 @@ TEST(ErrorEstimate, FindsTheNoiseOfBothAndTheirErrorApart)
     }
     // The reference's own noise moves what it is relative to by at most some of its square.
     EXPECT_NEAR(noise.mean(), relative_square(0.2), 4 * noise.standard_error() + 0.02 * relative_square(0.2));
-    EXPECT_NEAR(reference_noise.mean(), relative_square(0.05), 4 * reference_noise.standard_error() + 0.02 * relative_square(0.05));
+    EXPECT_NEAR(reference_noise.mean(), relative_square(0.05),
+                4 * reference_noise.standard_error() + 0.02 * relative_square(0.05));
     EXPECT_NEAR(error.mean(), relative_square(0.2), 4 * error.standard_error() + 0.02 * relative_square(0.2));
 }
 
@@ -83,7 +85,8 @@ struct Fireflies {
     double operator()() { return std::bernoulli_distribution(0.005)(random) ? 14 : -0.07; }
 };
 
-// Relative to itself a reference would weigh its fireflies less than their absence: there would be a squared bias of about 0.0012.
+// Relative to itself a reference would weigh its fireflies less than their absence: there would be a squared bias of
+// about 0.0012.
 TEST(ErrorEstimate, AddsUpWithFirefliesInTheReference)
 {
     Estimate bias, gap;
@@ -97,7 +100,8 @@ TEST(ErrorEstimate, AddsUpWithFirefliesInTheReference)
         const ErrorEstimate e = estimate_error(picture_of(1, 0.02, quiet), reference);
         bias.add(e.squared_bias.value);
         gap.add(e.squared_error.value - e.noise.value);
-        EXPECT_NEAR(e.squared_error.value, e.noise.value + e.squared_bias.value, 1e-12); // halves of equal share: exactly
+        EXPECT_NEAR(e.squared_error.value, e.noise.value + e.squared_bias.value,
+                    1e-12); // halves of equal share: exactly
     }
     EXPECT_LT(std::abs(bias.z(0)), 4);
     EXPECT_LT(std::abs(gap.z(0)), 4);
@@ -148,7 +152,8 @@ INSTANTIATE_TEST_SUITE_P(Noises, Unbiased, testing::Bool());
 
 TEST_P(Unbiased, IsFoundBiasedWhenItIs)
 {
-    // Power: the squared bias is known to about the variance of a half over the root of the number of pixels, here 1e-3.
+    // Power: the squared bias is known to about the variance of a half over the root of the number of pixels, here
+    // 1e-3.
     Estimate bias, color;
     int claimed = 0, covered = 0;
     Noise of{std::mt19937_64(3), GetParam()};

@@ -39,8 +39,8 @@ TEST(Flip, IsNothingBetweenAPictureAndItself)
 
 TEST(Flip, TakesBlackAndWhiteAsFarApart)
 {
-    // Plain pictures have no features, and HyAB of black and white is 100: 100^0.7 spread between the knee at 0.4 and the most there
-    // is, 41.2761, of green and blue.
+    // Plain pictures have no features, and HyAB of black and white is 100: 100^0.7 spread between the knee at 0.4 and
+    // the most there is, 41.2761, of green and blue.
     const double knee = 0.4 * 41.2761, expected = 0.95 + (std::pow(100, 0.7) - knee) / (41.2761 - knee) * 0.05;
     for (const double v : flip_difference(plain(V3d(0)), plain(V3d(1)))) EXPECT_NEAR(v, expected, 1e-4);
     EXPECT_NEAR(mean_flip(flip_difference(plain({0, 1, 0}), plain({0, 0, 1}))), 1, 1e-9);
@@ -70,7 +70,8 @@ TEST(Flip, StaysBetweenNothingAndOneAndIsTheSameBothWays)
 TEST(Flip, SeesAFineCheckerboardOnlyFromNear)
 {
     const ScreenPicture board = picture_of([](int x, int y) { return V3d((x + y) % 2 ? 0.6 : 0.4); });
-    const double far = mean_flip(flip_difference(plain(V3d(0.5)), board, 120)), near = mean_flip(flip_difference(plain(V3d(0.5)), board, 10));
+    const double far = mean_flip(flip_difference(plain(V3d(0.5)), board, 120)),
+                 near = mean_flip(flip_difference(plain(V3d(0.5)), board, 10));
     EXPECT_LT(far, 0.02);
     EXPECT_GT(near, 5 * far);
 }
@@ -84,10 +85,7 @@ TEST(Flip, CountsAnEdgeForMoreThanItsColour)
     EXPECT_GT(at_edge, 1.2 * row[1]);
 }
 
-TEST(Flip, CutsWhatAScreenCannotShow)
-{
-    EXPECT_EQ(mean_flip(flip_difference(plain(V3d(1)), plain(V3d(7)))), 0);
-}
+TEST(Flip, CutsWhatAScreenCannotShow) { EXPECT_EQ(mean_flip(flip_difference(plain(V3d(1)), plain(V3d(7)))), 0); }
 
 } // namespace
 } // namespace scree

@@ -4,8 +4,8 @@
 #include "packing/fill/list_fill.h"
 #include "packing/tiles/tile_generator.h"
 #include "render/loop/render_setup.h"
-#include "tests/builders/shapes.h"
 #include "tests/builders/scene_files.h"
+#include "tests/builders/shapes.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -53,13 +53,16 @@ struct FillScene {
     uint64_t list() const
     {
         const ProceduralFill fill(std::make_shared<const Domain>(read_mesh(path("ball.obj")), "ball.obj"),
-                                  std::make_shared<const PackingTile>(read_tile(path("tile.vdb"))), {radius * scale, 7});
+                                  std::make_shared<const PackingTile>(read_tile(path("tile.vdb"))),
+                                  {radius * scale, 7});
         VdbPointStream stream(path("listed.vdb"), fill.voxel());
         uint64_t count = 0;
-        list_fill(fill, 500, [&](const ParticleFrame& batch) {
-            stream.add(batch);
-            count += batch.size();
-        }, {});
+        list_fill(fill, 500,
+                  [&](const ParticleFrame& batch) {
+                      stream.add(batch);
+                      count += batch.size();
+                  },
+                  {});
         stream.finish();
         return count;
     }
@@ -76,12 +79,14 @@ struct FillScene {
                          "frost": {{"shape": {{"mesh": "ico.obj"}}, "material": {{"kind": "dielectric", "ior": 1.4, "roughness": 0.3}}}}}},
               "assembly": {},
               "mixture": {{"kind": "random", "types": ["glass", "clay", "cube", "frost"], "weights": [3, 2, 2, 1], "seed": 5}}}}}})",
-            text(at(1, -7, 2.5)), text(at(0, 0, -0.2)), text(at(-2, -3, 4)), 0.5 * scale, 0.5 / scale, assembly));
+                                           text(at(1, -7, 2.5)), text(at(0, 0, -0.2)), text(at(-2, -3, 4)), 0.5 * scale,
+                                           0.5 / scale, assembly));
         return path(name).string();
     }
     std::string write_fill() const
     {
-        return write("fill.json", fmt::format(R"({{"fill": "ball.obj", "tile": "tile.vdb", "radius": {}, "seed": 7}})", radius * scale));
+        return write("fill.json", fmt::format(R"({{"fill": "ball.obj", "tile": "tile.vdb", "radius": {}, "seed": 7}})",
+                                              radius * scale));
     }
     std::string write_list() const { return write("list.json", R"({"dump": "listed.vdb"})"); }
 };
@@ -116,7 +121,8 @@ TEST(FillScene, IsAnotherWhenAFileOfItsMixtureIs)
     };
     const std::string random = R"({"kind": "random", "types": ["glass", "clay"], "weights": [1, 1], "seed": 5})";
     EXPECT_EQ(hash(random, "clay"), hash(random, "clay"));
-    EXPECT_NE(hash(random, "clay"), hash(R"({"kind": "random", "types": ["glass", "clay"], "weights": [1, 1], "seed": 6})", "clay"));
+    EXPECT_NE(hash(random, "clay"),
+              hash(R"({"kind": "random", "types": ["glass", "clay"], "weights": [1, 1], "seed": 6})", "clay"));
     const std::string listed = R"({"kind": "explicit", "table": "table.csv"})";
     EXPECT_EQ(hash(listed, "clay"), hash(listed, "clay"));
     EXPECT_NE(hash(listed, "clay"), hash(listed, "glass"));
@@ -132,7 +138,8 @@ TEST(FillPicture, IsThatOfTheListedSpheres)
         scene.write_parts();
         const uint64_t count = scene.list();
         EXPECT_GT(count, fraction * 1200) << "of " << fraction * 8 / (0.16 * 0.16 * 0.16);
-        EXPECT_EQ(difference(picture(scene.write_fill(), 24), picture(scene.write_list(), 24)), "") << "fraction " << fraction;
+        EXPECT_EQ(difference(picture(scene.write_fill(), 24), picture(scene.write_list(), 24)), "")
+            << "fraction " << fraction;
     }
 }
 
@@ -166,7 +173,8 @@ TEST(FillPicture, IsTheSameAtAnyScaleOfTwo)
     for (const int exponent : {-20, 20, 60}) {
         scene.scale = std::ldexp(1, exponent);
         scene.write_parts();
-        EXPECT_EQ(difference(picture(scene.write_fill(), 4), one, static_cast<float>(scene.scale)), "") << "2^" << exponent;
+        EXPECT_EQ(difference(picture(scene.write_fill(), 4), one, static_cast<float>(scene.scale)), "")
+            << "2^" << exponent;
     }
 }
 
@@ -175,12 +183,14 @@ TEST(FillPicture, OfLosslessGrainsIsWhiteInAWhiteSky)
     const TemporaryFolder folder;
     const FillScene scene{folder};
     scene.write_parts();
-    write_text(scene.path("white.json"), fmt::format(R"({{"camera": {{"origin": {}, "target": {}, "up": [0, 0, 1], "fov": 40}},
+    write_text(scene.path("white.json"),
+               fmt::format(R"({{"camera": {{"origin": {}, "target": {}, "up": [0, 0, 1], "fov": 40}},
   "film": {{"size": [24, 18]}}, "lights": [{{"kind": "constant", "radiance": 1}}],
   "grains": {{"types": {{"glass": {{"shape": "sphere", "material": {{"kind": "dielectric", "ior": 1.5}}}},
                          "white": {{"shape": {{"mesh": "cube.obj"}}, "material": {{"kind": "lambert", "reflectance": 1}}}}}},
               "assembly": {{"fill": "ball.obj", "tile": "tile.vdb", "radius": 0.16}},
-              "mixture": {{"kind": "random", "types": ["glass", "white"]}}}}}})", FillScene::text(scene.at(1, -7, 2.5)), FillScene::text(scene.at(0, 0, 0))));
+              "mixture": {{"kind": "random", "types": ["glass", "white"]}}}}}})",
+                           FillScene::text(scene.at(1, -7, 2.5)), FillScene::text(scene.at(0, 0, 0))));
     const Picture white = picture(scene.path("white.json").string(), 8);
     for (const char* channel : {"R", "G", "B"}) {
         for (const float value : white.floats.at(channel)) ASSERT_NEAR(value, 1, 1e-5);

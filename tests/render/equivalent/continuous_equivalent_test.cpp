@@ -1,11 +1,11 @@
 // The numbers of the medium that stands for a packing, against simulated walks of independent flights.
 
 #include "base/error.h"
-#include "render/gsdf/encounter.h"
-#include "render/gsdf/gsdf_builder.h"
+#include "base/warp.h"
 #include "render/equivalent/continuous_equivalent.h"
 #include "render/equivalent/decay_constant.h"
-#include "base/warp.h"
+#include "render/gsdf/encounter.h"
+#include "render/gsdf/gsdf_builder.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/statistics.h"
@@ -28,7 +28,9 @@ std::vector<Grains>& all_grains_once()
         Material tea = dielectric(1.5);
         tea.absorption = Color(0.05f, 0.2f, 0);
         const auto glass = build_gsdf({nullptr, dielectric(1.5)}, {0.08});
-        return std::vector<Grains>{{lambert(1), build_gsdf({nullptr, lambert(1)}, {0.08})}, {dielectric(1.5), glass}, {tea, glass},
+        return std::vector<Grains>{{lambert(1), build_gsdf({nullptr, lambert(1)}, {0.08})},
+                                   {dielectric(1.5), glass},
+                                   {tea, glass},
                                    {lambert(0.7f), build_gsdf({&body, lambert(1)}, {0.08})}};
     }();
     return grains;
@@ -56,7 +58,9 @@ Walked walk_independently(std::span<const GrainShare> shares, double void_flight
             double s = -void_flight * std::log(sampler.next());
             while (true) {
                 const double which = sum * sampler.next();
-                const auto i = std::min(shares.size() - 1, static_cast<size_t>(std::ranges::upper_bound(cumulated, which) - cumulated.begin()));
+                const auto i =
+                    std::min(shares.size() - 1,
+                             static_cast<size_t>(std::ranges::upper_bound(cumulated, which) - cumulated.begin()));
                 const GrainShare& share = shares[i];
                 const Gsdf& gsdf = *share.gsdf;
                 const double q = sampler.next();
@@ -66,11 +70,14 @@ Walked walk_independently(std::span<const GrainShare> shares, double void_flight
                 }
                 const double phi = 2 * pi * sampler.next();
                 const Frame frame(w);
-                const V3d entry = frame.to_world({std::sqrt(q) * std::cos(phi), std::sqrt(q) * std::sin(phi), -std::sqrt(1 - q)});
+                const V3d entry =
+                    frame.to_world({std::sqrt(q) * std::cos(phi), std::sqrt(q) * std::sin(phi), -std::sqrt(1 - q)});
                 const Encounter encounter(entry, w);
-                const uint32_t stratum = Gsdf::stratum(q, sampler.next()), cell = gsdf.sample_cell(stratum, sampler.next());
+                const uint32_t stratum = Gsdf::stratum(q, sampler.next()),
+                               cell = gsdf.sample_cell(stratum, sampler.next());
                 const uint32_t number = gsdf.pick(stratum, cell, sampler.next());
-                const V3d exit = encounter.to_world(gsdf.record(number).point.unpack()), out = encounter.to_world(gsdf.record(number).direction.unpack());
+                const V3d exit = encounter.to_world(gsdf.record(number).point.unpack()),
+                          out = encounter.to_world(gsdf.record(number).direction.unpack());
                 const V3d delta = share.radius * (exit - entry);
                 const double kept = gsdf.weight(number, share.material, share.radius).x;
                 l += s;
@@ -90,12 +97,16 @@ Walked walk_independently(std::span<const GrainShare> shares, double void_flight
         double diffusivity = 0, transport = 0;
         const int windows = events - window;
         for (int i = 0; i < windows; ++i) {
-            const V3d step = starts[static_cast<size_t>(i) + 1] - starts[static_cast<size_t>(i)], way = starts[static_cast<size_t>(i + window)] - starts[static_cast<size_t>(i)];
+            const V3d step = starts[static_cast<size_t>(i) + 1] - starts[static_cast<size_t>(i)],
+                      way = starts[static_cast<size_t>(i + window)] - starts[static_cast<size_t>(i)];
             diffusivity += (0.5 * step.length2() + step.dot(way - step)) / windows;
             transport += way.dot(directions[static_cast<size_t>(i)]) / windows;
         }
-        const std::pair<Estimate*, double> sums[] = {{&result.l, l}, {&result.m2, m2}, {&result.g, g}, {&result.a, a}, {&result.b, b},
-                                                     {&result.delta2, delta2}, {&result.weight, weight}, {&result.weighted_cosine, weighted_cosine}};
+        const std::pair<Estimate*, double> sums[] = {
+            {&result.l, l},           {&result.m2, m2},
+            {&result.g, g},           {&result.a, a},
+            {&result.b, b},           {&result.delta2, delta2},
+            {&result.weight, weight}, {&result.weighted_cosine, weighted_cosine}};
         for (const auto& [estimate, value] : sums) estimate->add(value / events);
         result.diffusivity.add(diffusivity);
         result.transport.add(transport);
@@ -108,14 +119,22 @@ void expect_agreement(std::span<const GrainShare> shares, double fraction, const
     const MixtureMoments mixture = mixture_moments(shares, fraction);
     const Walked walked = walk_independently(shares, mixture.void_flight, 6000, 120, 40);
     const std::tuple<const char*, const Estimate*, double> rows[] = {
-        {"l", &walked.l, mixture.flight}, {"m2", &walked.m2, mixture.flight2}, {"g", &walked.g, mixture.g}, {"a", &walked.a, mixture.along_in},
-        {"b", &walked.b, mixture.along_out}, {"delta^2", &walked.delta2, mixture.delta2}, {"w", &walked.weight, mixture.albedo.x},
-        {"w cos", &walked.weighted_cosine, mixture.weighted_cosine.x}, {"D", &walked.diffusivity, mixture.diffusivity()},
+        {"l", &walked.l, mixture.flight},
+        {"m2", &walked.m2, mixture.flight2},
+        {"g", &walked.g, mixture.g},
+        {"a", &walked.a, mixture.along_in},
+        {"b", &walked.b, mixture.along_out},
+        {"delta^2", &walked.delta2, mixture.delta2},
+        {"w", &walked.weight, mixture.albedo.x},
+        {"w cos", &walked.weighted_cosine, mixture.weighted_cosine.x},
+        {"D", &walked.diffusivity, mixture.diffusivity()},
         {"l*", &walked.transport, mixture.transport_length()}};
     for (const auto& [name, estimate, truth] : rows) {
         // A window of 40 scatterings leaves 0.66^40 of what light remembers: nothing.
-        EXPECT_LT(std::abs(estimate->mean() - truth), 4 * estimate->standard_error() + 1e-6 * std::abs(truth)) << what << " f " << fraction << " " << name;
-        std::printf("%-14s f %.2f %-8s formula %9.5f walked %9.5f +- %.5f\n", what.c_str(), fraction, name, truth, estimate->mean(), estimate->standard_error());
+        EXPECT_LT(std::abs(estimate->mean() - truth), 4 * estimate->standard_error() + 1e-6 * std::abs(truth))
+            << what << " f " << fraction << " " << name;
+        std::printf("%-14s f %.2f %-8s formula %9.5f walked %9.5f +- %.5f\n", what.c_str(), fraction, name, truth,
+                    estimate->mean(), estimate->standard_error());
     }
 }
 
@@ -133,7 +152,8 @@ TEST(ContinuousEquivalent, FormulaIsThatOfIndependentFlights)
 TEST(ContinuousEquivalent, FormulaHoldsForMixturesOfTypesAndSizes)
 {
     const auto& grains = all_grains_once();
-    const GrainShare shares[] = {{grains[2].gsdf.get(), nullptr, grains[2].material, 1, 1}, {grains[3].gsdf.get(), nullptr, grains[3].material, 2, 0.5},
+    const GrainShare shares[] = {{grains[2].gsdf.get(), nullptr, grains[2].material, 1, 1},
+                                 {grains[3].gsdf.get(), nullptr, grains[3].material, 2, 0.5},
                                  {grains[0].gsdf.get(), nullptr, lambert(0.9f), 0.5, 2}};
     expect_agreement(shares, 0.4, "mixture");
 }
@@ -141,7 +161,8 @@ TEST(ContinuousEquivalent, FormulaHoldsForMixturesOfTypesAndSizes)
 TEST(ContinuousEquivalent, VoidFlightIsTheMeanChordOfTheVoids)
 {
     const auto& white = all_grains_once()[0];
-    const GrainShare shares[] = {{white.gsdf.get(), nullptr, white.material, 1, 3}, {white.gsdf.get(), nullptr, white.material, 2, 1}};
+    const GrainShare shares[] = {{white.gsdf.get(), nullptr, white.material, 1, 3},
+                                 {white.gsdf.get(), nullptr, white.material, 2, 1}};
     const double f = 0.55, r2 = (3 + 4) / 4.0, r3 = (3 + 8) / 4.0;
     EXPECT_DOUBLE_EQ(mixture_moments(shares, f).void_flight, 4 * (1 - f) * r3 / (3 * f * r2));
 }
@@ -151,9 +172,11 @@ TEST(ContinuousEquivalent, WaysInAndOutAreAlike)
 {
     for (const Grains& grains : all_grains_once()) {
         const GrainMoments moments = grain_moments(*grains.gsdf);
-        std::printf("g %.5f a %.5f b %.5f delta2 %.5f alpha0 %.5f\n", moments.g, moments.along_in, moments.along_out, moments.delta2, moments.alpha0);
+        std::printf("g %.5f a %.5f b %.5f delta2 %.5f alpha0 %.5f\n", moments.g, moments.along_in, moments.along_out,
+                    moments.delta2, moments.alpha0);
         // Each is the mean over the records kept, of 32 * 2048 cells; what they scatter by is less than 1.
-        EXPECT_NEAR(moments.along_in, moments.along_out, 4 / std::sqrt(static_cast<double>(grains.gsdf->data().records.size())));
+        EXPECT_NEAR(moments.along_in, moments.along_out,
+                    4 / std::sqrt(static_cast<double>(grains.gsdf->data().records.size())));
     }
 }
 
@@ -179,7 +202,8 @@ TEST(ContinuousEquivalent, FormsKeepWhatTheyPromise)
     const Grains& tea = all_grains_once()[2];
     const GrainShare share{tea.gsdf.get(), nullptr, tea.material, 1, 1};
     const MixtureMoments mixture = mixture_moments({&share, 1}, 0.5);
-    const auto plain = continuous_equivalent(mixture, EquivalentForm::plain), formula = continuous_equivalent(mixture, EquivalentForm::formula);
+    const auto plain = continuous_equivalent(mixture, EquivalentForm::plain),
+               formula = continuous_equivalent(mixture, EquivalentForm::formula);
     EXPECT_DOUBLE_EQ(plain.sigma_t, 1 / mixture.flight);
     EXPECT_DOUBLE_EQ(plain.g, mixture.g);
     EXPECT_NEAR(formula.diffusivity, mixture.diffusivity(), 1e-12 * mixture.diffusivity());
@@ -231,7 +255,8 @@ TEST(DecayConstant, IsThatOfDiffusionNearAlbedoOne)
             const double kappa = decay_constant(1 - loss, g), diffusion = std::sqrt(3 * loss * (1 - g));
             EXPECT_NEAR(kappa / diffusion, 1, 3 * loss / (1 - std::abs(g)) + 1e-7) << g << " " << loss;
         }
-        for (const double albedo : {0.2, 0.6, 0.9, 0.99}) EXPECT_NEAR(albedo_of_decay(decay_constant(albedo, g), g), albedo, 1e-6) << g;
+        for (const double albedo : {0.2, 0.6, 0.9, 0.99})
+            EXPECT_NEAR(albedo_of_decay(decay_constant(albedo, g), g), albedo, 1e-6) << g;
     }
 }
 

@@ -35,7 +35,8 @@ RegionSurface joined(RegionSurface a, const RegionSurface& b, bool flip)
 {
     const auto offset = static_cast<uint32_t>(a.positions.size());
     a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
-    for (const auto& t : b.triangles) a.triangles.push_back({t[0] + offset, t[flip ? 2 : 1] + offset, t[flip ? 1 : 2] + offset});
+    for (const auto& t : b.triangles)
+        a.triangles.push_back({t[0] + offset, t[flip ? 2 : 1] + offset, t[flip ? 1 : 2] + offset});
     return a;
 }
 
@@ -83,7 +84,8 @@ double least_distance(const RegionSurface& region, const RegionSurface& mesh)
     const size_t step = region.positions.size() * mesh.triangles.size() / 20000000 + 1;
     for (size_t i = 0; i < region.positions.size(); i += step)
         for (const auto& t : mesh.triangles)
-            least = std::min(least, distance_to_triangle(V3d(region.positions[i]), V3d(mesh.positions[t[0]]), V3d(mesh.positions[t[1]]), V3d(mesh.positions[t[2]])));
+            least = std::min(least, distance_to_triangle(V3d(region.positions[i]), V3d(mesh.positions[t[0]]),
+                                                         V3d(mesh.positions[t[1]]), V3d(mesh.positions[t[2]])));
     return least;
 }
 
@@ -102,13 +104,17 @@ TEST(InsetOfMesh, MeetsTheFacesOfABoxExactly)
             const V3d beyond(std::abs(q.x) - half.x, std::abs(q.y) - half.y, std::abs(q.z) - half.z);
             const double out = std::max({beyond.x, beyond.y, beyond.z});
             // Next to the inset's edges the field may know the wrong one of two faces.
-            const int near_edge = (beyond.x > -2 * region->voxel) + (beyond.y > -2 * region->voxel) + (beyond.z > -2 * region->voxel);
+            const int near_edge =
+                (beyond.x > -2 * region->voxel) + (beyond.y > -2 * region->voxel) + (beyond.z > -2 * region->voxel);
             EXPECT_LT(out, near_edge > 1 ? 0.25 * region->voxel : 1e-3 * depth);
-            if (near_edge == 1) { EXPECT_GT(out, -1e-3 * depth); }
+            if (near_edge == 1) {
+                EXPECT_GT(out, -1e-3 * depth);
+            }
             on_faces += out > -1e-3 * depth;
         }
         // Only next to the edges do corners of cells fall inside.
-        EXPECT_GT(static_cast<double>(on_faces) / static_cast<double>(region->positions.size()), depth > 0.2 ? 0.6 : 0.9);
+        EXPECT_GT(static_cast<double>(on_faces) / static_cast<double>(region->positions.size()),
+                  depth > 0.2 ? 0.6 : 0.9);
         const double volume = signed_volume(to_mesh(*region)), exact = 8 * half.x * half.y * half.z;
         EXPECT_LT(volume, exact * (1 + 1e-5));
         EXPECT_GT(volume, exact - 4 * (half.x + half.y + half.z) * 2 * region->voxel * region->voxel);
@@ -165,12 +171,14 @@ TEST(InsetOfMesh, TakesCoarserVoxelsWhereFineOnesWouldBeTooMany)
     ASSERT_TRUE(region);
     EXPECT_TRUE(region->coarsened);
     EXPECT_GT(region->voxel, depth / 4);
-    for (const V3f& p : region->positions) EXPECT_LT(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), 1 - depth * (1 - 1e-3));
+    for (const V3f& p : region->positions)
+        EXPECT_LT(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), 1 - depth * (1 - 1e-3));
 }
 
 TEST(InsetOfMesh, IsTheSameInAUnitThatIsAPowerOfTwo)
 {
-    const RegionSurface ball = to_surface(icosphere(3), V3d(1.1, 0.9, 1)), larger = to_surface(icosphere(3), V3d(1.1, 0.9, 1) * 0x1p20);
+    const RegionSurface ball = to_surface(icosphere(3), V3d(1.1, 0.9, 1)),
+                        larger = to_surface(icosphere(3), V3d(1.1, 0.9, 1) * 0x1p20);
     const auto a = inset(ball, 0.2), b = inset(larger, 0.2 * 0x1p20);
     ASSERT_TRUE(a && b);
     ASSERT_EQ(a->triangles, b->triangles);
@@ -190,14 +198,16 @@ TEST(InsetOfMesh, RefusesOpenMeshesAndNegativeDepths)
     EXPECT_THROW(inset_of_mesh(box.positions, box.triangles, 0.1, progress), Cancelled);
 }
 
-/// A bed of spheres of radius 1, the part whose centres are in -half..half: its faces are about half + 1 from the middle.
+/// A bed of spheres of radius 1, the part whose centres are in -half..half: its faces are about half + 1 from the
+/// middle.
 Spheres block_of_bed(double fraction, const V3d& half)
 {
     const auto tile = push_apart(300, fraction, 1, 0.01, 5);
     const double edge = packing_edge(tile, fraction);
     const int cells = static_cast<int>(std::ceil(2 * std::max({half.x, half.y, half.z}) / edge)) + 1;
     Spheres spheres;
-    for (const PackedSphere& s : repeat_packing(tile, edge, cells, tile.size() * static_cast<uint64_t>(cells * cells * cells))) {
+    for (const PackedSphere& s :
+         repeat_packing(tile, edge, cells, tile.size() * static_cast<uint64_t>(cells * cells * cells))) {
         const V3d& p = s.center;
         if (std::abs(p.x) <= half.x && std::abs(p.y) <= half.y && std::abs(p.z) <= half.z)
             spheres.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), 1});
@@ -205,7 +215,8 @@ Spheres block_of_bed(double fraction, const V3d& half)
     return spheres;
 }
 
-/// Where rays along z towards the middle enter the surface, mean of |z| over a grid of places within `reach` of the axis.
+/// Where rays along z towards the middle enter the surface, mean of |z| over a grid of places within `reach` of the
+/// axis.
 double mean_height(const RegionSurface& region, double reach)
 {
     double sum = 0;
@@ -216,7 +227,9 @@ double mean_height(const RegionSurface& region, double reach)
                 double highest = -INFINITY;
                 for (const auto& t : region.triangles) {
                     const V3d a(region.positions[t[0]]), b(region.positions[t[1]]), c(region.positions[t[2]]);
-                    const auto cross = [&](const V3d& p, const V3d& q) { return (p.x - x) * (q.y - y) - (p.y - y) * (q.x - x); };
+                    const auto cross = [&](const V3d& p, const V3d& q) {
+                        return (p.x - x) * (q.y - y) - (p.y - y) * (q.x - x);
+                    };
                     const double u = cross(b, c), v = cross(c, a), w = cross(a, b), all = u + v + w;
                     if (all == 0 || u * all < 0 || v * all < 0 || w * all < 0) continue;
                     highest = std::max(highest, side * (u * a.z + v * b.z + w * c.z) / all);
@@ -248,7 +261,8 @@ TEST(CoreOfSpheres, LiesBelowTheFacesOfABlock)
         // Centres end at the cut; as much of the grains is beyond it as of those cut away would be below.
         EXPECT_NEAR(mean_height(*region, 5), half.z - depth, 0.5) << depth;
         const V3d expected = (half - V3d(depth)) * 2;
-        EXPECT_NEAR(std::cbrt(signed_volume(to_mesh(*region))), std::cbrt(expected.x * expected.y * expected.z), 0.5) << depth;
+        EXPECT_NEAR(std::cbrt(signed_volume(to_mesh(*region))), std::cbrt(expected.x * expected.y * expected.z), 0.5)
+            << depth;
     }
 }
 
@@ -260,7 +274,8 @@ TEST(CoreOfSpheres, HasNoPointNearTheOutside)
     const double depth = 2;
     const auto region = core(spheres, depth, options);
     ASSERT_TRUE(region);
-    // Points of the outside: a ball of the closing's radius around one meets no sphere, so the hull is that radius away from it.
+    // Points of the outside: a ball of the closing's radius around one meets no sphere, so the hull is that radius away
+    // from it.
     std::mt19937_64 random(9);
     std::uniform_real_distribution<double> uniform(-13, 13);
     double nearest = INFINITY;

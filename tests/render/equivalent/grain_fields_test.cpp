@@ -53,7 +53,8 @@ Heap lattice(int edge, double smallest, uint32_t types, uint64_t seed)
                 const double r = smallest + (1 - smallest) * uniform(random), play = 2 - 2 * r;
                 const V3d at(uniform(random), uniform(random), uniform(random));
                 const auto code = static_cast<uint8_t>(3 * (random() % types));
-                heap.add(2 * x - edge + r + play * at.x, 2 * y - edge + r + play * at.y, 2 * z - edge + r + play * at.z, r, code);
+                heap.add(2 * x - edge + r + play * at.x, 2 * y - edge + r + play * at.y, 2 * z - edge + r + play * at.z,
+                         r, code);
             }
     return heap;
 }
@@ -64,7 +65,8 @@ Heap bed(double fraction, int cells)
     const auto tile = push_apart(400, fraction, 1, 0.01, 5);
     const double edge = packing_edge(tile, fraction);
     Heap heap;
-    for (const PackedSphere& s : repeat_packing(tile, edge, cells, tile.size() * static_cast<uint64_t>(cells * cells * cells)))
+    for (const PackedSphere& s :
+         repeat_packing(tile, edge, cells, tile.size() * static_cast<uint64_t>(cells * cells * cells)))
         heap.add(s.center.x, s.center.y, s.center.z, s.radius);
     return heap;
 }
@@ -217,7 +219,8 @@ TEST(GrainFields, TakeTheMarginOffRadii)
     store.type_codes = heap.codes;
     store.widen();
     ASSERT_NE(store.spheres[0].r, heap.spheres[0].r);
-    const GrainFields f = make_grain_fields({store.spheres.data(), store.size()}, store.type_codes, 1, {.margin = store.margin}, Progress());
+    const GrainFields f = make_grain_fields({store.spheres.data(), store.size()}, store.type_codes, 1,
+                                            {.margin = store.margin}, Progress());
     EXPECT_EQ(f.voxel(), fields(heap).voxel());
     EXPECT_TRUE(same(*f.grids().pack_rate, *fields(heap).grids().pack_rate, 1));
 }
@@ -236,7 +239,8 @@ TEST(GrainFields, RefuseWhatTheyCannotHold)
     EXPECT_THROW(fields(type), InputError);
     Progress progress;
     progress.cancel();
-    EXPECT_THROW(make_grain_fields(lattice(5, 0.5, 1, 7).spheres, std::vector<uint8_t>(125), 1, {}, progress), Cancelled);
+    EXPECT_THROW(make_grain_fields(lattice(5, 0.5, 1, 7).spheres, std::vector<uint8_t>(125), 1, {}, progress),
+                 Cancelled);
 }
 
 } // namespace

@@ -1,13 +1,13 @@
 // What walks among the grains of a packing say of it, where the answer is known.
 
 #include "base/error.h"
-#include "packing/tiles/tile_generator.h"
-#include "render/gsdf/encounter.h"
-#include "render/gsdf/gsdf_builder.h"
-#include "render/equivalent/continuous_equivalent.h"
-#include "render/equivalent/decay_constant.h"
 #include "base/sampler.h"
 #include "base/warp.h"
+#include "packing/tiles/tile_generator.h"
+#include "render/equivalent/continuous_equivalent.h"
+#include "render/equivalent/decay_constant.h"
+#include "render/gsdf/encounter.h"
+#include "render/gsdf/gsdf_builder.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/tile_beds.h"
@@ -20,9 +20,11 @@ namespace {
 
 void expect_within(const Measured& measured, double truth, const std::string& what)
 {
-    EXPECT_LT(std::abs(measured.value - truth), 4 * measured.error) << what << ": " << measured.value << " +- " << measured.error << ", not " << truth;
+    EXPECT_LT(std::abs(measured.value - truth), 4 * measured.error)
+        << what << ": " << measured.value << " +- " << measured.error << ", not " << truth;
     EXPECT_GT(measured.error, 0) << what;
-    std::printf("%-28s %9.5f +- %.5f, truth %9.5f (%+.1f)\n", what.c_str(), measured.value, measured.error, truth, (measured.value - truth) / measured.error);
+    std::printf("%-28s %9.5f +- %.5f, truth %9.5f (%+.1f)\n", what.c_str(), measured.value, measured.error, truth,
+                (measured.value - truth) / measured.error);
 }
 
 double sample_henyey_greenstein(double g, double u)
@@ -43,7 +45,8 @@ std::vector<WalkBatch> walk_medium(double g, const V3d& albedo, uint32_t memory,
             trail.direction.emplace_back(0, 0, 1);
             for (uint32_t i = 0; i < 8 * memory; ++i) {
                 const V3d w = trail.direction.back();
-                const double s = -std::log(sampler.next()), cosine = sample_henyey_greenstein(g, sampler.next()), phi = 2 * pi * sampler.next();
+                const double s = -std::log(sampler.next()), cosine = sample_henyey_greenstein(g, sampler.next()),
+                             phi = 2 * pi * sampler.next();
                 const double sine = safe_sqrt(1 - cosine * cosine);
                 trail.flight.push_back(s);
                 trail.kept.push_back(albedo);
@@ -72,7 +75,8 @@ TEST(WalkStatistics, GiveBackAHomogeneousMedium)
             const PackingDecay decay = statistics.decay(c);
             EXPECT_NEAR(decay.albedo, albedo[c], 1e-9);
             expect_within(decay.kappa, decay_constant(albedo[c], g), name + " kappa " + std::to_string(albedo[c]));
-            std::printf("    from n = %u; from half of it %.5f +- %.5f\n", decay.steps, decay.check.value, decay.check.error);
+            std::printf("    from n = %u; from half of it %.5f +- %.5f\n", decay.steps, decay.check.value,
+                        decay.check.error);
         }
     }
 }
@@ -110,7 +114,8 @@ TEST(PackingWalk, OfFewGrainsIsThatOfIndependentFlights)
 {
     Material tea = dielectric(1.5);
     tea.absorption = Color(0, 0.05f, 0.2f);
-    for (const GrainType& type : {GrainType{"white", lambert(0.9f), nullptr, white()}, GrainType{"tea", tea, nullptr, glass()}, cubes()}) {
+    for (const GrainType& type :
+         {GrainType{"white", lambert(0.9f), nullptr, white()}, GrainType{"tea", tea, nullptr, glass()}, cubes()}) {
         const GrainShare share{type.gsdf.get(), nullptr, type.material, 1, 1};
         const MixtureMoments mixture = mixture_moments({&share, 1}, 0.02);
         const TileBed bed(sphere_tile(0.02, 1000), 1, type, 200 * mixture.flight);
@@ -187,8 +192,8 @@ TEST(PackingWalk, OfOpaqueGrainsSpreadsLessThanIndependentFlights)
     EXPECT_THROW(continuous_equivalent(mixture, EquivalentForm::walk), std::invalid_argument);
 }
 
-/// How the light that meets grains falls off with the distance from a plane it starts from, measured between two distances: by walks
-/// of its own, with weights.
+/// How the light that meets grains falls off with the distance from a plane it starts from, measured between two
+/// distances: by walks of its own, with weights.
 Measured fall_off(const TileBed& bed, double near, double far, uint32_t walks)
 {
     constexpr uint32_t batches = 20;
@@ -216,7 +221,8 @@ Measured fall_off(const TileBed& bed, double near, double far, uint32_t walks)
                 }
                 const GrainSphere sphere = bed.world().sphere(hit.place.index);
                 const Encounter encounter(hit.normal, d);
-                const uint32_t stratum = Gsdf::stratum(encounter.q, sampler.next()), cell = type.gsdf->sample_cell(stratum, sampler.next());
+                const uint32_t stratum = Gsdf::stratum(encounter.q, sampler.next()),
+                               cell = type.gsdf->sample_cell(stratum, sampler.next());
                 const uint32_t number = type.gsdf->pick(stratum, cell, sampler.next());
                 weight *= type.gsdf->weight(number, type.material, sphere.radius).x;
                 if (weight < 1e-3) weight = sampler.next() < 0.5 ? 2 * weight : 0;
@@ -240,17 +246,20 @@ TEST(PackingWalk, DecayIsThatOfLightFromAPlane)
         double near, far;
         uint32_t walks;
     };
-    for (const Case& c : {Case{{"white 0.9", lambert(0.9f), nullptr, white()}, 3, 7, 40000}, Case{{"smoky", smoky, nullptr, glass()}, 15, 35, 10000}}) {
+    for (const Case& c : {Case{{"white 0.9", lambert(0.9f), nullptr, white()}, 3, 7, 40000},
+                          Case{{"smoky", smoky, nullptr, glass()}, 15, 35, 10000}}) {
         const GrainShare share{c.type.gsdf.get(), nullptr, c.type.material, 1, 1};
         const MixtureMoments mixture = mixture_moments({&share, 1}, 0.6);
         const TileBed bed(sphere_tile(0.6, 600), 1, c.type, 400);
         const PackingWalk walk = walk_packing(bed.world(), bed.tracer(), walk_options(bed, 600000));
         const Measured measured = fall_off(bed, c.near, c.far, c.walks), kappa = walk.decay[0].kappa;
-        std::printf("%s: falls off by %.4f +- %.4f, kappa %.4f +- %.4f; media by formula %.4f, by walk %.4f\n", c.type.name.c_str(), measured.value, measured.error,
-                    kappa.value, kappa.error, continuous_equivalent(mixture, EquivalentForm::formula).decay.x,
+        std::printf("%s: falls off by %.4f +- %.4f, kappa %.4f +- %.4f; media by formula %.4f, by walk %.4f\n",
+                    c.type.name.c_str(), measured.value, measured.error, kappa.value, kappa.error,
+                    continuous_equivalent(mixture, EquivalentForm::formula).decay.x,
                     continuous_equivalent(mixture, EquivalentForm::walk, &walk).decay.x);
         // Ways of some ten scatterings do not know all of the packing's memory: 1.5 %.
-        EXPECT_LT(std::abs(kappa.value - measured.value), 0.015 * measured.value + 4 * std::hypot(kappa.error, measured.error));
+        EXPECT_LT(std::abs(kappa.value - measured.value),
+                  0.015 * measured.value + 4 * std::hypot(kappa.error, measured.error));
         EXPECT_NEAR(continuous_equivalent(mixture, EquivalentForm::decay, &walk).decay.x, kappa.value, 1e-6);
     }
 }

@@ -1,12 +1,13 @@
-// What a picture file holds: channels, windows, metadata, auxiliary values by hand, variance, filters, and whole files only.
+// What a picture file holds: channels, windows, metadata, auxiliary values by hand, variance, filters, and whole files
+// only.
 
 #include "base/error.h"
+#include "base/sampler.h"
 #include "render/film/checkpoint.h"
 #include "render/film/exr_output.h"
-#include "base/sampler.h"
+#include "tests/builders/scene_files.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/statistics.h"
-#include "tests/builders/scene_files.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -27,15 +28,19 @@ using testing::HasSubstr;
 struct FilterCase {
     Filter filter;
     double second_moment; ///< of one coordinate
-    double reach;         ///< largest coordinate
+    double reach; ///< largest coordinate
 };
 
 TEST(Filter, HasItsMoments)
 {
     // A gaussian cut at 3 sigma: u = r^2 / (2 sigma^2) is exponential cut at 4.5, and E[x^2] = sigma^2 E[u].
     const double kept = 1 - 4.5 * std::exp(-4.5) / (1 - std::exp(-4.5));
-    const FilterCase cases[] = {{{FilterKind::box, 0.5}, 0.25 / 3, 0.5}, {{FilterKind::box, 2}, 4.0 / 3, 2}, {{FilterKind::tent, 1}, 1.0 / 6, 1},
-                                {{FilterKind::tent, 1.7}, 1.7 * 1.7 / 6, 1.7}, {{FilterKind::gaussian, 1.5}, 0.25 * kept, 1.5}, {{FilterKind::gaussian, 3}, kept, 3}};
+    const FilterCase cases[] = {{{FilterKind::box, 0.5}, 0.25 / 3, 0.5},
+                                {{FilterKind::box, 2}, 4.0 / 3, 2},
+                                {{FilterKind::tent, 1}, 1.0 / 6, 1},
+                                {{FilterKind::tent, 1.7}, 1.7 * 1.7 / 6, 1.7},
+                                {{FilterKind::gaussian, 1.5}, 0.25 * kept, 1.5},
+                                {{FilterKind::gaussian, 3}, kept, 3}};
     for (const FilterCase& c : cases) {
         Estimate x, y, xx, yy, xy;
         Sampler sampler(1, 0, 0, 0);
@@ -93,7 +98,9 @@ Film noise_film(int width, int height)
         FirstHit hit;
         hit.hit = true;
         hit.depth = sampler.next();
-        pixel.add(Color(static_cast<float>(sampler.next()), static_cast<float>(sampler.next()), static_cast<float>(sampler.next())), hit);
+        pixel.add(Color(static_cast<float>(sampler.next()), static_cast<float>(sampler.next()),
+                        static_cast<float>(sampler.next())),
+                  hit);
         pixel.add(Color(static_cast<float>(sampler.next())), hit);
     }
     return film;
@@ -112,8 +119,12 @@ TEST(ExrFile, HasTheChannelsAskedFor)
     const TemporaryFolder folder;
     const std::filesystem::path path = folder.path("a.exr");
     const std::vector<std::pair<std::vector<Aov>, std::set<std::string>>> cases{
-        {{}, {}}, {{Aov::albedo}, {"albedo.R", "albedo.G", "albedo.B"}}, {{Aov::normal}, {"N.X", "N.Y", "N.Z"}}, {{Aov::depth}, {"Z"}},
-        {{Aov::type, Aov::id, Aov::samples}, {"type (integer)", "id (integer)", "samples (integer)"}}, {{Aov::variance}, {"variance.R", "variance.G", "variance.B"}}};
+        {{}, {}},
+        {{Aov::albedo}, {"albedo.R", "albedo.G", "albedo.B"}},
+        {{Aov::normal}, {"N.X", "N.Y", "N.Z"}},
+        {{Aov::depth}, {"Z"}},
+        {{Aov::type, Aov::id, Aov::samples}, {"type (integer)", "id (integer)", "samples (integer)"}},
+        {{Aov::variance}, {"variance.R", "variance.G", "variance.B"}}};
     for (const auto& [aov, names] : cases) {
         write_exr(path, noise_film(3, 2), aov, {});
         std::set<std::string> expected = names;
@@ -170,13 +181,15 @@ TEST(PictureFile, AppearsWholeOrNotAtAll)
         EXPECT_TRUE(error) << "a write that failed went unnoticed";
         EXPECT_THAT(error ? error->place() : "", HasSubstr(name));
         EXPECT_EQ(read_bytes(path), "the old one");
-        EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "something lies beside it";
+        EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1)
+            << "something lies beside it";
         write(path);
         EXPECT_NE(read_bytes(path), "the old one");
         std::filesystem::remove(path);
 
         EXPECT_TRUE(input_error_of([&, &writer = write] { writer(folder.path("none") / name); })) << "no such folder";
-        EXPECT_TRUE(input_error_of([&, &writer = write] { writer("/proc/" + name); })) << "a folder that cannot be written";
+        EXPECT_TRUE(input_error_of([&, &writer = write] { writer("/proc/" + name); }))
+            << "a folder that cannot be written";
         std::filesystem::create_directory(path);
         EXPECT_TRUE(input_error_of([&, &writer = write] { writer(path); })) << "a folder in its place";
         std::filesystem::remove(path);
@@ -192,9 +205,14 @@ const std::string pinpoint = R"("filter": {"kind": "box", "radius": 1e-9})";
 TEST(Aov, OfSpheresAreAsByHand)
 {
     const TemporaryFolder folder;
-    folder.write("grains.dump", dump_text({{{4000000000, 7, V3d(0, 0, 0), 1.0}, {12, 5, V3d(1.5, 3, 0.5), 0.75}, {13, 6, V3d(-1.5, 1, -1.25), 0.5}}}, false));
-    const std::string scene = folder.write("scene.json", R"({"camera": {"kind": "orthographic", "origin": [0, -10, 0], "target": [0, 0, 0], "width": 5},
-        "film": {"size": [51, 41], )" + pinpoint + ", " + all_aovs + R"(}, "lights": [{"kind": "constant"}],
+    folder.write("grains.dump", dump_text({{{4000000000, 7, V3d(0, 0, 0), 1.0},
+                                            {12, 5, V3d(1.5, 3, 0.5), 0.75},
+                                            {13, 6, V3d(-1.5, 1, -1.25), 0.5}}},
+                                          false));
+    const std::string scene = folder.write(
+        "scene.json", R"({"camera": {"kind": "orthographic", "origin": [0, -10, 0], "target": [0, 0, 0], "width": 5},
+        "film": {"size": [51, 41], )" +
+                          pinpoint + ", " + all_aovs + R"(}, "lights": [{"kind": "constant"}],
         "grains": {"types": {"clay": {"shape": "sphere", "material": {"kind": "lambert", "reflectance": [0.25, 0.5, 0.75]}},
                              "glass": {"shape": "sphere", "material": {"kind": "dielectric", "tint": [0.5, 0.75, 1]}},
                              "steel": {"shape": "sphere", "material": {"kind": "conductor", "eta": 1, "k": 4, "tint": 0.25}}},
@@ -208,7 +226,9 @@ TEST(Aov, OfSpheresAreAsByHand)
         uint32_t type, id;
         Color albedo;
     };
-    const Sphere spheres[] = {{V3d(0), 1, 0, 4000000000u, Color(0.25f, 0.5f, 0.75f)}, {V3d(1.5, 3, 0.5), 0.75, 1, 12, Color(0.5f, 0.75f, 1)}, {V3d(-1.5, 1, -1.25), 0.5, 2, 13, Color(0.25f)}};
+    const Sphere spheres[] = {{V3d(0), 1, 0, 4000000000u, Color(0.25f, 0.5f, 0.75f)},
+                              {V3d(1.5, 3, 0.5), 0.75, 1, 12, Color(0.5f, 0.75f, 1)},
+                              {V3d(-1.5, 1, -1.25), 0.5, 2, 13, Color(0.25f)}};
     int seen[4] = {};
     for (int y = 0; y < 41; ++y) {
         for (int x = 0; x < 51; ++x) {
@@ -260,14 +280,20 @@ TEST(Aov, DepthIsAlongTheView)
 {
     const TemporaryFolder folder;
     TriangleMesh wall;
-    const V3d view = V3d(1, 2, -0.5).normalized(), across = view.cross(V3d(0, 0, 1)).normalized(), up = across.cross(view), middle = V3d(100, -50, 7) + 5.0 * view;
-    wall.positions = {middle - 20.0 * across - 20.0 * up, middle + 20.0 * across - 20.0 * up, middle + 20.0 * across + 20.0 * up, middle - 20.0 * across + 20.0 * up};
+    const V3d view = V3d(1, 2, -0.5).normalized(), across = view.cross(V3d(0, 0, 1)).normalized(),
+              up = across.cross(view), middle = V3d(100, -50, 7) + 5.0 * view;
+    wall.positions = {middle - 20.0 * across - 20.0 * up, middle + 20.0 * across - 20.0 * up,
+                      middle + 20.0 * across + 20.0 * up, middle - 20.0 * across + 20.0 * up};
     wall.triangles = {{0, 1, 2}, {0, 2, 3}};
     folder.write("wall.obj", obj_text(wall));
     for (const double aperture : {0.0, 0.8}) {
-        const std::string scene = folder.write("scene.json", fmt::format(R"({{"camera": {{"origin": [100, -50, 7], "target": [101, -48, 6.5], "fov": 70, "aperture": {}, "focus": 3}},
+        const std::string scene = folder.write(
+            "scene.json",
+            fmt::format(
+                R"({{"camera": {{"origin": [100, -50, 7], "target": [101, -48, 6.5], "fov": 70, "aperture": {}, "focus": 3}},
             "film": {{"size": [16, 12], {}}}, "lights": [{{"kind": "constant"}}],
-            "surfaces": [{{"mesh": "wall.obj", "material": {{"kind": "lambert", "reflectance": [0.1, 0.2, 0.3]}}}}]}})", aperture, all_aovs));
+            "surfaces": [{{"mesh": "wall.obj", "material": {{"kind": "lambert", "reflectance": [0.1, 0.2, 0.3]}}}}]}})",
+                aperture, all_aovs));
         const Picture picture = render_picture(scene);
         for (size_t i = 0; i < 16 * 12; ++i) {
             ASSERT_NEAR(picture.floats.at("Z")[i], 5, 2e-5);
@@ -293,8 +319,10 @@ TEST(Aov, DepthIsAlongTheView)
 TEST(Aov, AreMeansOverSamples)
 {
     const TemporaryFolder folder;
-    const std::string scene = folder.write("scene.json", R"({"camera": {"kind": "orthographic", "origin": [0, -10, 0], "target": [0, 0, 0], "width": 4},
-        "film": {"size": [1, 1], "filter": "box", )" + all_aovs + R"(}, "lights": [{"kind": "constant", "radiance": 2}],
+    const std::string scene = folder.write(
+        "scene.json", R"({"camera": {"kind": "orthographic", "origin": [0, -10, 0], "target": [0, 0, 0], "width": 4},
+        "film": {"size": [1, 1], "filter": "box", )" +
+                          all_aovs + R"(}, "lights": [{"kind": "constant", "radiance": 2}],
         "grains": {"types": {"clay": {"shape": "sphere", "material": {"kind": "lambert", "reflectance": 1}}}, "assembly": {"spheres": [{"center": [0, 0, 0], "radius": 1}]}}})");
     const Picture picture = render_picture(scene, [](RenderJob& job) { job.spp = 40000; });
     // The picture is 4 x 4 and the sphere's disc pi: hit with probability p; the mean depth of hits is 10 - 2/3.
@@ -331,7 +359,8 @@ TEST(Aov, VarianceIsThatOverSeeds)
         difference_of.add(variance - told[i].mean());
         scatter.add(variance);
     }
-    std::printf("variance over seeds %.3e, told %.3e less +- %.1e\n", scatter.mean(), difference_of.mean(), difference_of.standard_error());
+    std::printf("variance over seeds %.3e, told %.3e less +- %.1e\n", scatter.mean(), difference_of.mean(),
+                difference_of.standard_error());
     EXPECT_LT(std::abs(difference_of.z(0)), 4);
     EXPECT_LT(difference_of.standard_error(), 0.15 * scatter.mean());
 }

@@ -2,8 +2,8 @@
 
 #include "render/grains/library/grain_library.h"
 
-#include "ingest/meshes/self_intersections.h"
 #include "base/hash.h"
+#include "ingest/meshes/self_intersections.h"
 #include "render/integrators/path_tracer.h"
 #include "tests/builders/packings.h"
 #include "tests/builders/scenes.h"
@@ -24,7 +24,10 @@ using testing::HasSubstr;
 
 constexpr uint64_t tessellations[] = {20, 1500, 20000};
 
-TriangleMesh shape_of(const LibraryGrain& grain, uint64_t triangles, uint64_t seed = 0) { return make_grain_shape(grain, {seed, triangles, {}}, "test"); }
+TriangleMesh shape_of(const LibraryGrain& grain, uint64_t triangles, uint64_t seed = 0)
+{
+    return make_grain_shape(grain, {seed, triangles, {}}, "test");
+}
 
 uint64_t hash_of(const TriangleMesh& mesh)
 {
@@ -47,8 +50,10 @@ std::vector<std::string> names_of_library()
 
 TEST(GrainLibrary, HasTheFourteenTypes)
 {
-    EXPECT_THAT(names_of_library(), testing::UnorderedElementsAre("sugar", "brown_sugar", "ice", "snowflake", "white_sand", "yellow_sand", "brown_sand", "dark_brown_sand",
-                                                                  "black_sand", "flour", "hairball", "cinnamon", "dielectric_sphere", "diffuse_sphere"));
+    EXPECT_THAT(names_of_library(),
+                testing::UnorderedElementsAre("sugar", "brown_sugar", "ice", "snowflake", "white_sand", "yellow_sand",
+                                              "brown_sand", "dark_brown_sand", "black_sand", "flour", "hairball",
+                                              "cinnamon", "dielectric_sphere", "diffuse_sphere"));
     for (const LibraryGrain& grain : grain_library()) {
         EXPECT_EQ(find_library_grain(grain.name), &grain);
         EXPECT_FALSE(grain.description.empty());
@@ -156,7 +161,8 @@ TEST_P(Shape, EveryParameterMakesADifferenceAndItsRangeHolds)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Library, Shape, testing::ValuesIn(names_of_library()), [](const auto& type) { return type.param; });
+INSTANTIATE_TEST_SUITE_P(Library, Shape, testing::ValuesIn(names_of_library()),
+                         [](const auto& type) { return type.param; });
 
 TEST(GrainLibrary, WrongRequestsAreExplained)
 {
@@ -179,35 +185,36 @@ TEST(GrainLibrary, DefaultsAreSpelledOutInTheHash)
 {
     const LibraryGrain& sugar = *find_library_grain("sugar");
     const double usual = shape_parameters(sugar)[0].value;
-    EXPECT_EQ(hash_shape(sugar, {}), hash_shape(sugar, {0, sugar.default_triangles, {{shape_parameters(sugar)[0].name, usual}}}));
+    EXPECT_EQ(hash_shape(sugar, {}),
+              hash_shape(sugar, {0, sugar.default_triangles, {{shape_parameters(sugar)[0].name, usual}}}));
     std::set<uint64_t> all;
     for (const LibraryGrain& grain : grain_library()) all.insert(hash_shape(grain, {}));
     EXPECT_EQ(all.size(), grain_library().size());
 }
 
-// Shapes must be the same on every machine, or pictures of one scene from several of them would not fit together. Volumes are
-// held to far more than the last bits, in which the machines' sines and powers may differ.
+// Shapes must be the same on every machine, or pictures of one scene from several of them would not fit together.
+// Volumes are held to far more than the last bits, in which the machines' sines and powers may differ.
 TEST(GrainLibrary, ShapesArePinned)
 {
-    const std::map<std::string, double> volumes{
-        {"sugar", 1.613870639036},
-        {"brown_sugar", 2.065607669301},
-        {"ice", 1.744100702781},
-        {"snowflake", 0.044841955219},
-        {"white_sand", 1.543591157724},
-        {"yellow_sand", 2.063965920139},
-        {"brown_sand", 1.211425584340},
-        {"dark_brown_sand", 2.060545525172},
-        {"black_sand", 1.669854641717},
-        {"flour", 1.991252128976},
-        {"hairball", 0.021488489598},
-        {"cinnamon", 0.354562595343},
-        {"dielectric_sphere", 4.160540155367},
-        {"diffuse_sphere", 4.160540155367}};
+    const std::map<std::string, double> volumes{{"sugar", 1.613870639036},
+                                                {"brown_sugar", 2.065607669301},
+                                                {"ice", 1.744100702781},
+                                                {"snowflake", 0.044841955219},
+                                                {"white_sand", 1.543591157724},
+                                                {"yellow_sand", 2.063965920139},
+                                                {"brown_sand", 1.211425584340},
+                                                {"dark_brown_sand", 2.060545525172},
+                                                {"black_sand", 1.669854641717},
+                                                {"flour", 1.991252128976},
+                                                {"hairball", 0.021488489598},
+                                                {"cinnamon", 0.354562595343},
+                                                {"dielectric_sphere", 4.160540155367},
+                                                {"diffuse_sphere", 4.160540155367}};
     for (const LibraryGrain& grain : grain_library()) {
         const double volume = signed_volume(shape_of(grain, 2000, 5));
         ASSERT_TRUE(volumes.contains(grain.name));
-        EXPECT_NEAR(volume, volumes.at(grain.name), 1e-9) << grain.name << ": a change of a generator needs a new version";
+        EXPECT_NEAR(volume, volumes.at(grain.name), 1e-9)
+            << grain.name << ": a change of a generator needs a new version";
     }
 }
 
@@ -257,7 +264,8 @@ TEST_P(LibraryFurnace, LosslessGrainsAreWhite)
     EXPECT_LT(static_cast<double>(leaks), 1e-4 * static_cast<double>(segments));
 }
 
-INSTANTIATE_TEST_SUITE_P(Library, LibraryFurnace, testing::ValuesIn(names_of_dielectrics()), [](const auto& type) { return type.param; });
+INSTANTIATE_TEST_SUITE_P(Library, LibraryFurnace, testing::ValuesIn(names_of_dielectrics()),
+                         [](const auto& type) { return type.param; });
 
 } // namespace
 } // namespace scree

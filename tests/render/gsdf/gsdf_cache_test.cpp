@@ -19,9 +19,9 @@ protected:
     FoundGsdf find(const Material& material, double error = 0.3, uint64_t shape = 7)
     {
         GsdfSource source{shape, material, [this] {
-            ++traced_;
-            return body_;
-        }};
+                              ++traced_;
+                              return body_;
+                          }};
         return find_gsdf(source, {error}, folder_.path() / "cache");
     }
 
@@ -64,7 +64,8 @@ TEST_F(GsdfCache, DamageIsNoticedAndMended)
     const std::string good = test::read_bytes(first.file);
     ASSERT_GT(good.size(), 100000u);
     const auto rewrite = [&](const std::string& bytes) { std::ofstream(first.file, std::ios::binary) << bytes; };
-    std::vector<std::string> broken{"", good.substr(0, 50), good.substr(0, good.size() / 2), good + "x", std::string(good.size(), 'x')};
+    std::vector<std::string> broken{"", good.substr(0, 50), good.substr(0, good.size() / 2), good + "x",
+                                    std::string(good.size(), 'x')};
     for (size_t at = 0; at < good.size(); at += good.size() / 23) {
         broken.push_back(good);
         broken.back()[at] = static_cast<char>(broken.back()[at] ^ 0x10);

@@ -1,7 +1,7 @@
 // The scattering of a grain averaged over its rotations: against exact truths, and sampling against its density.
 
-#include "render/gsdf/gsdf_builder.h"
 #include "base/warp.h"
+#include "render/gsdf/gsdf_builder.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/statistics.h"
@@ -54,7 +54,8 @@ Estimate cosine_of_records(const Gsdf& gsdf, uint32_t draws)
 // Geometric optics of a sphere, Fresnel included (design, section 5).
 TEST(Gsdf, SphereHasTheExactMeanCosine)
 {
-    for (const auto& [material, truth] : {std::pair{dielectric(1.5), 0.65009}, std::pair{dielectric(1.31), 0.78166}, std::pair{lambert(0.3f), -4.0 / 9}}) {
+    for (const auto& [material, truth] : {std::pair{dielectric(1.5), 0.65009}, std::pair{dielectric(1.31), 0.78166},
+                                          std::pair{lambert(0.3f), -4.0 / 9}}) {
         const auto gsdf = build_gsdf({nullptr, material}, {0.03});
         const GsdfQuality& quality = gsdf->data().quality;
         EXPECT_EQ(quality.lost, 0u);
@@ -65,13 +66,14 @@ TEST(Gsdf, SphereHasTheExactMeanCosine)
         const Estimate drawn = cosine_of_records(*gsdf, 2000000);
         EXPECT_LT(std::abs(drawn.mean() - truth), 4 * std::hypot(drawn.standard_error(), quality.mean_cosine_error));
         EXPECT_LT(std::abs(gsdf->mean_cosine() - truth), 1e-3);
-        std::printf("mean cosine %.5f: all paths %.5f +- %.5f, records %.5f, drawn %.5f +- %.5f\n", truth, quality.mean_cosine,
-                    quality.mean_cosine_error, gsdf->mean_cosine(), drawn.mean(), drawn.standard_error());
+        std::printf("mean cosine %.5f: all paths %.5f +- %.5f, records %.5f, drawn %.5f +- %.5f\n", truth,
+                    quality.mean_cosine, quality.mean_cosine_error, gsdf->mean_cosine(), drawn.mean(),
+                    drawn.standard_error());
     }
 }
 
-// Cauchy: a convex body shows a quarter of its surface on average, so light from afar misses it with 1 - S / (4 pi) of the
-// bounding sphere's cross-section. A cube in the unit sphere has S = 8.
+// Cauchy: a convex body shows a quarter of its surface on average, so light from afar misses it with 1 - S / (4 pi) of
+// the bounding sphere's cross-section. A cube in the unit sphere has S = 8.
 TEST(Gsdf, MissesAsOftenAsTheMeanShadowSays)
 {
     const auto body = exemplar_of(cube());
@@ -176,8 +178,8 @@ void EveryGsdf::density_integrates_to_the_mass_of_cells() const
     }
 }
 
-// Independent paths fall as the density says: over cells of 8 x 8, in strata apart from each other, against the paths' own
-// noise and the error the GSDF states.
+// Independent paths fall as the density says: over cells of 8 x 8, in strata apart from each other, against the paths'
+// own noise and the error the GSDF states.
 void EveryGsdf::states_its_error_honestly() const
 {
     std::vector<double> found(static_cast<size_t>(Gsdf::strata) * Gsdf::cells);
@@ -210,8 +212,10 @@ void EveryGsdf::states_its_error_honestly() const
             }
         }
     }
-    EXPECT_LT(error, 1.2 * noise + gsdf_->data().quality.density_error) << "stated " << gsdf_->data().quality.density_error << ", noise " << noise;
-    std::printf("%s: apart by %.4f over coarse cells, noise %.4f, stated (fine) %.4f\n", GetParam().name.c_str(), error, noise, gsdf_->data().quality.density_error);
+    EXPECT_LT(error, 1.2 * noise + gsdf_->data().quality.density_error)
+        << "stated " << gsdf_->data().quality.density_error << ", noise " << noise;
+    std::printf("%s: apart by %.4f over coarse cells, noise %.4f, stated (fine) %.4f\n", GetParam().name.c_str(), error,
+                noise, gsdf_->data().quality.density_error);
 }
 
 TEST_P(EveryGsdf, HoldsWhatItPromises)
@@ -223,9 +227,13 @@ TEST_P(EveryGsdf, HoldsWhatItPromises)
     states_its_error_honestly();
 }
 
-INSTANTIATE_TEST_SUITE_P(Types, EveryGsdf, testing::Values(
-    GsdfCase{"glass sphere", dielectric(1.5), true}, GsdfCase{"rough glass sphere", dielectric(1.5, 0.4), true}, GsdfCase{"white sphere", lambert(1), true},
-    GsdfCase{"glass chip", dielectric(1.5), false}, GsdfCase{"white chip", lambert(1), false}, GsdfCase{"metal chip", metal(), false}));
+INSTANTIATE_TEST_SUITE_P(Types, EveryGsdf,
+                         testing::Values(GsdfCase{"glass sphere", dielectric(1.5), true},
+                                         GsdfCase{"rough glass sphere", dielectric(1.5, 0.4), true},
+                                         GsdfCase{"white sphere", lambert(1), true},
+                                         GsdfCase{"glass chip", dielectric(1.5), false},
+                                         GsdfCase{"white chip", lambert(1), false},
+                                         GsdfCase{"metal chip", metal(), false}));
 
 // Length and events of records: the mean transmission of an absorbing sphere against paths that absorb on their way.
 TEST(Gsdf, AbsorptionByLengthIsThatOfTheWay)
@@ -252,14 +260,18 @@ TEST(Gsdf, AbsorptionByLengthIsThatOfTheWay)
     for (int c = 0; c < 3; ++c) {
         // 18,000 records stand for all paths: their own error is a few times 1e-4.
         const double error = std::hypot(records[c].standard_error(), walked[c].standard_error(), 3e-4);
-        EXPECT_LT(std::abs(records[c].mean() - walked[c].mean()), 4 * error) << c << ": " << records[c].mean() << " " << walked[c].mean();
+        EXPECT_LT(std::abs(records[c].mean() - walked[c].mean()), 4 * error)
+            << c << ": " << records[c].mean() << " " << walked[c].mean();
     }
 }
 
 bool same(const Gsdf::Data& a, const Gsdf::Data& b)
 {
-    const auto bytes = [](const auto& v, const auto& w) { return v.size() == w.size() && std::memcmp(v.data(), w.data(), v.size() * sizeof(v[0])) == 0; };
-    return bytes(a.alpha0, b.alpha0) && bytes(a.density, b.density) && bytes(a.first, b.first) && bytes(a.records, b.records) && bytes(a.weights, b.weights);
+    const auto bytes = [](const auto& v, const auto& w) {
+        return v.size() == w.size() && std::memcmp(v.data(), w.data(), v.size() * sizeof(v[0])) == 0;
+    };
+    return bytes(a.alpha0, b.alpha0) && bytes(a.density, b.density) && bytes(a.first, b.first) &&
+           bytes(a.records, b.records) && bytes(a.weights, b.weights);
 }
 
 TEST(Gsdf, IsTheSameForAnyNumberOfThreads)

@@ -37,7 +37,10 @@ Map product_map(const std::vector<double>& turns, const std::function<std::vecto
 
 BruteForceMaps exactly(const Map& map) { return {{map, map}, map, map, 0}; }
 
-const FormError& form(const MapErrors& errors, const std::string& name) { return *std::ranges::find(errors.forms, name, &FormError::form); }
+const FormError& form(const MapErrors& errors, const std::string& name)
+{
+    return *std::ranges::find(errors.forms, name, &FormError::form);
+}
 
 std::vector<double> uniform_directions()
 {
@@ -67,11 +70,13 @@ TEST(ScatteringMap, CellsAreWhereTheirAnglesSay)
         for (uint32_t d = 0; d < Map::directions; ++d) {
             const double gamma_o = 2 * pi * turn / Map::turns;
             const V3d exit = direction(1, -gamma_o); // omega_o is gamma_o ahead of it
-            const V3d w = direction(pi * (d / Map::azimuths + 0.5) / Map::polar, 2 * pi * (d % Map::azimuths) / Map::azimuths);
+            const V3d w =
+                direction(pi * (d / Map::azimuths + 0.5) / Map::polar, 2 * pi * (d % Map::azimuths) / Map::azimuths);
             EXPECT_EQ(Map::cell_of(q, exit, w), turn * Map::directions + d);
         }
     }
-    // Straight on the direction is omega_o itself and the exit lies in its plane; at the entry the plane is that as well.
+    // Straight on the direction is omega_o itself and the exit lies in its plane; at the entry the plane is that as
+    // well.
     const uint32_t straight = static_cast<uint32_t>(std::acos(c) / pi * Map::polar) * Map::azimuths;
     EXPECT_EQ(Map::cell_of(q, V3d(b, 0, c), V3d(0, 0, 1)), straight);
     EXPECT_EQ(Map::cell_of(q, entry, V3d(0, 0, 1)), straight);
@@ -81,7 +86,8 @@ TEST(ScatteringMap, CellsAreWhereTheirAnglesSay)
 TEST(MapErrors, AProductIsWhatTheFactoredFormKnows)
 {
     std::vector<double> directions = uniform_directions();
-    for (uint32_t d = 0; d < Map::directions; ++d) directions[d] *= 1 + 0.5 * std::cos(2 * pi * (d % Map::azimuths) / Map::azimuths);
+    for (uint32_t d = 0; d < Map::directions; ++d)
+        directions[d] *= 1 + 0.5 * std::cos(2 * pi * (d % Map::azimuths) / Map::azimuths);
     const Map truth = product_map({0.3, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1}, [&](uint32_t) { return directions; });
     const MapErrors errors = map_errors(truth, exactly(truth));
     EXPECT_NEAR(form(errors, "gsdf").full, 0, 1e-12);
@@ -89,7 +95,8 @@ TEST(MapErrors, AProductIsWhatTheFactoredFormKnows)
     EXPECT_NEAR(form(errors, "factored").direction, 0, 1e-12);
     // Isotropic: the mean of |cos| / 2 over 24 azimuths; together with the turns not less.
     double expected = 0;
-    for (uint32_t i = 0; i < Map::azimuths; ++i) expected += 0.5 * std::abs(std::cos(2 * pi * i / Map::azimuths)) / Map::azimuths;
+    for (uint32_t i = 0; i < Map::azimuths; ++i)
+        expected += 0.5 * std::abs(std::cos(2 * pi * i / Map::azimuths)) / Map::azimuths;
     EXPECT_NEAR(form(errors, "isotropic").direction, expected, 1e-12);
     EXPECT_GT(form(errors, "isotropic").full, expected);
     EXPECT_EQ(errors.noise.full, 0);
@@ -118,9 +125,11 @@ TEST(MapErrors, FindsTheParameterOfHenyeyAndGreenstein)
         Sampler sampler(5, row, 0, 0);
         for (int i = 0; i < n; ++i) {
             const double s = (1 - g * g) / (1 - g + 2 * g * sampler.next());
-            const double cosine = (1 + g * g - s * s) / (2 * g), sine = safe_sqrt(1 - cosine * cosine), phi = 2 * pi * sampler.next();
+            const double cosine = (1 + g * g - s * s) / (2 * g), sine = safe_sqrt(1 - cosine * cosine),
+                         phi = 2 * pi * sampler.next();
             const double q = Map::lowest_q(row) + sampler.next() * (Map::highest_q(row) - Map::lowest_q(row));
-            masses[Map::cell_of(q, V3d(std::sqrt(q), 0, safe_sqrt(1 - q)), V3d(sine * std::cos(phi), sine * std::sin(phi), cosine))] += 1.0 / n;
+            masses[Map::cell_of(q, V3d(std::sqrt(q), 0, safe_sqrt(1 - q)),
+                                V3d(sine * std::cos(phi), sine * std::sin(phi), cosine))] += 1.0 / n;
         }
         return masses;
     };
@@ -162,7 +171,8 @@ MapErrors errors_of_sphere(const Material& material)
 TEST(MapErrors, OfALambertSphere)
 {
     const MapErrors errors = errors_of_sphere(Material{});
-    // 10^5 paths a row over up to 384 cells: noise of up to sqrt(2 K / (pi n)) = 5 %. The GSDF adds 2 % that is independent.
+    // 10^5 paths a row over up to 384 cells: noise of up to sqrt(2 K / (pi n)) = 5 %. The GSDF adds 2 % that is
+    // independent.
     EXPECT_LT(errors.noise.full, 0.05);
     EXPECT_LT(form(errors, "gsdf").full, std::hypot(errors.noise.full, 0.03));
     // All light leaves where it came in: no uniform place is right, and half of the directions are wrong.
@@ -175,7 +185,8 @@ TEST(MapErrors, OfALambertSphere)
 
 TEST(MapErrors, OfAGlassSphere)
 {
-    // One direction for each number of reflections: strata of impacts smear it by some degrees, which these cells resolve.
+    // One direction for each number of reflections: strata of impacts smear it by some degrees, which these cells
+    // resolve.
     const MapErrors errors = errors_of_sphere(glass(1.5));
     EXPECT_LT(errors.noise.full, 0.05);
     EXPECT_LT(form(errors, "gsdf").full, 0.5 * form(errors, "hg").full);

@@ -1,7 +1,7 @@
 // Every light's sampler against its density, cell by cell, as next-event estimation uses both.
 
-#include "render/lights/light.h"
 #include "base/sampler.h"
+#include "render/lights/light.h"
 #include "tests/builders/statistics.h"
 
 #include <gtest/gtest.h>
@@ -89,10 +89,14 @@ TEST(Light, SamplesItsDensity)
         const LightSet set({light}, 1.0);
         // Cells around the light's middle: a cap that holds it.
         const V3d axis = light.kind == LightKind::sphere ? (light.center - p).normalized()
-                         : light.kind == LightKind::rectangle ? (light.corner + 0.5 * (light.edge1 + light.edge2) - p).normalized()
-                         : light.kind == LightKind::distant ? light.direction : V3d(0, 0, 1);
-        const double cap = light.kind == LightKind::distant ? 2 * light.one_minus_cos
-                           : name == "sphere" ? 0.3 : light.kind == LightKind::environment ? 2 : 1;
+                         : light.kind == LightKind::rectangle
+                             ? (light.corner + 0.5 * (light.edge1 + light.edge2) - p).normalized()
+                         : light.kind == LightKind::distant ? light.direction
+                                                            : V3d(0, 0, 1);
+        const double cap = light.kind == LightKind::distant       ? 2 * light.one_minus_cos
+                           : name == "sphere"                     ? 0.3
+                           : light.kind == LightKind::environment ? 2
+                                                                  : 1;
         const Frame frame(axis);
         constexpr int bands = 12, sectors = 24;
         const int n = 100000;
@@ -110,7 +114,8 @@ TEST(Light, SamplesItsDensity)
                 continue;
             }
             const double phi = std::atan2(w.y, w.x) / (2 * pi) + 0.5;
-            observed[static_cast<size_t>(static_cast<int>(h * bands) * sectors + std::min(sectors - 1, static_cast<int>(phi * sectors)))] += 1;
+            observed[static_cast<size_t>(static_cast<int>(h * bands) * sectors +
+                                         std::min(sectors - 1, static_cast<int>(phi * sectors)))] += 1;
         }
         double inside = 0;
         constexpr int m = 40;
@@ -137,7 +142,8 @@ TEST(Light, SamplesItsDensity)
 
 TEST(Light, ManyAreChosenAsTheyAreWeighed)
 {
-    const LightSet set({rectangle({-0.5, -0.6, 1.5}, {1, 0, 0}, {0, 1.3, 0}), sphere({3, 0, 0}, 0.5), distant(1), environment()}, 1.0);
+    const LightSet set(
+        {rectangle({-0.5, -0.6, 1.5}, {1, 0, 0}, {0, 1.3, 0}), sphere({3, 0, 0}, 0.5), distant(1), environment()}, 1.0);
     const V3d p(0);
     // The mean of radiance / pdf over samples is the irradiance-like integral: the sum over the lights one by one.
     Estimate all;

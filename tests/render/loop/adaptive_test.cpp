@@ -1,10 +1,10 @@
 // Rendering up to an error: what is drawn decides how much is drawn, and the picture must not show it.
 
-#include "render/loop/adaptive.h"
-#include "render/film/checkpoint.h"
 #include "base/sampler.h"
-#include "tests/builders/statistics.h"
+#include "render/film/checkpoint.h"
+#include "render/loop/adaptive.h"
 #include "tests/builders/scene_files.h"
+#include "tests/builders/statistics.h"
 
 #include <gmock/gmock.h>
 
@@ -16,7 +16,10 @@ using namespace test;
 /// A sample of mean 1: a half, and with probability p what is missing.
 struct RareLight {
     double p;
-    Color operator()(Sampler& sampler) const { return Color(static_cast<float>(0.5 + (sampler.next() < p ? 0.5 / p : 0.0))); }
+    Color operator()(Sampler& sampler) const
+    {
+        return Color(static_cast<float>(0.5 + (sampler.next() < p ? 0.5 / p : 0.0)));
+    }
 };
 
 /// each: half of every pixel.
@@ -70,7 +73,8 @@ double naive_mean(double error, uint32_t most, uint64_t seed, const RareLight& l
     double sum = 0;
     for (int tile = 0; tile < film.tile_columns() * film.tile_rows(); ++tile) {
         double mean = 0;
-        for (uint32_t level = AdaptivePlan::least_samples(error);; level = AdaptivePlan::next_level(level, AdaptivePlan::least_samples(error))) {
+        for (uint32_t level = AdaptivePlan::least_samples(error);;
+             level = AdaptivePlan::next_level(level, AdaptivePlan::least_samples(error))) {
             draw(film, tile, {level, level}, seed, light);
             double variance = 0;
             mean = 0;
@@ -108,8 +112,9 @@ TEST(Adaptive, IsUnbiasedWhereTheNaiveRuleIsNot)
         told.add(variance - squares);
         naive.add(naive_mean(error, most, seed, light));
     }
-    std::printf("truth 1: two halves %.4f +- %.4f, naive %.4f +- %.4f; variance told %.4f +- %.4f more than it is\n", halves.mean(),
-                halves.standard_error(), naive.mean(), naive.standard_error(), told.mean(), told.standard_error());
+    std::printf("truth 1: two halves %.4f +- %.4f, naive %.4f +- %.4f; variance told %.4f +- %.4f more than it is\n",
+                halves.mean(), halves.standard_error(), naive.mean(), naive.standard_error(), told.mean(),
+                told.standard_error());
     EXPECT_LT(std::abs(halves.z(1)), 4);
     EXPECT_LT(halves.standard_error(), 0.025);
     EXPECT_LT(naive.z(1), -6);
@@ -136,7 +141,8 @@ TEST(Adaptive, ClaimsTheErrorThereIs)
             claims.add(claim * claim);
             difference.add(claim * claim - squares);
         }
-        std::printf("error asked for %.3f, claimed %.4f, true %.4f\n", error, std::sqrt(claims.mean()), std::sqrt(truth.mean()));
+        std::printf("error asked for %.3f, claimed %.4f, true %.4f\n", error, std::sqrt(claims.mean()),
+                    std::sqrt(truth.mean()));
         EXPECT_LT(std::sqrt(truth.mean()), 1.05 * error);
         EXPECT_GT(std::sqrt(truth.mean()), 0.6 * error);
         EXPECT_LT(std::abs(std::sqrt(claims.mean() / truth.mean()) - 1), 0.05 + error * error);
@@ -151,7 +157,7 @@ TEST(Adaptive, DecidesForAHalfByTheOtherAlone)
     AdaptivePlan plan(states, 2, 0.1);
     for (TileState& tile : states.tiles) {
         tile.estimates[0] = {256, V3d(256), 0.5, 0}; // needs 25 of each half
-        tile.estimates[1] = {256, V3d(256), 8, 0};   // needs 400
+        tile.estimates[1] = {256, V3d(256), 8, 0}; // needs 400
     }
     plan.decide();
     for (const TileState& tile : states.tiles) {
@@ -175,7 +181,8 @@ TEST(Adaptive, GivesTilesByTheRootOfTheirVarianceAndLooksAround)
     const auto decide = [&](double deviation) {
         for (size_t i = 0; i < 5; ++i) {
             states.tiles[i].counts = {};
-            for (TileEstimate& estimate : states.tiles[i].estimates) estimate = {256, V3d(256), variances[i], deviation * variances[i]};
+            for (TileEstimate& estimate : states.tiles[i].estimates)
+                estimate = {256, V3d(256), variances[i], deviation * variances[i]};
         }
         states.level = AdaptivePlan::least_samples(0.05);
         plan.decide();
@@ -200,8 +207,10 @@ TEST(Adaptive, GivesTilesByTheRootOfWhatTheirSamplesCost)
         for (TileEstimate& estimate : states.tiles[0].estimates) estimate = {256, V3d(256), 1, 0, 1};
         for (TileEstimate& estimate : states.tiles[1].estimates) estimate = {256, V3d(256), 1, 0, 4};
         plan.decide();
-        for (const uint32_t count : states.tiles[0].counts.counts) EXPECT_EQ(count, level < 150 ? undecided : std::max(level, 300u)) << level;
-        for (const uint32_t count : states.tiles[1].counts.counts) EXPECT_EQ(count, level < 75 ? undecided : std::max(level, 150u)) << level;
+        for (const uint32_t count : states.tiles[0].counts.counts)
+            EXPECT_EQ(count, level < 150 ? undecided : std::max(level, 300u)) << level;
+        for (const uint32_t count : states.tiles[1].counts.counts)
+            EXPECT_EQ(count, level < 75 ? undecided : std::max(level, 150u)) << level;
     }
 }
 
@@ -299,7 +308,8 @@ TEST(Adaptive, CountsOfAHalfDoNotDependOnWhatItSaw)
         while (!plan.finished()) {
             for (size_t tile = 0; tile < states.tiles.size(); ++tile) {
                 const auto each = plan.asked(tile);
-                const int x0 = static_cast<int>(tile) % film.tile_columns() * Film::tile_size, y0 = static_cast<int>(tile) / film.tile_columns() * Film::tile_size;
+                const int x0 = static_cast<int>(tile) % film.tile_columns() * Film::tile_size,
+                          y0 = static_cast<int>(tile) / film.tile_columns() * Film::tile_size;
                 for (int y = y0; y < y0 + Film::tile_size; ++y)
                     for (int x = x0; x < x0 + Film::tile_size; ++x) {
                         PixelHalves& halves = film.halves_at(x, y);
@@ -351,7 +361,8 @@ TEST(Adaptive, IsTheSamePictureWithAnyThreadsAndResumed)
     EXPECT_GT(begun.numbers.at("relativeError"), 0.2);
     const std::filesystem::path checkpoint = folder.path("out.exr.checkpoint");
     ASSERT_TRUE(std::filesystem::exists(checkpoint));
-    EXPECT_TRUE(input_error_of([&] { render_picture(scene, [](RenderJob& job) { job.resume = true; }); })) << "a picture without an error";
+    EXPECT_TRUE(input_error_of([&] { render_picture(scene, [](RenderJob& job) { job.resume = true; }); }))
+        << "a picture without an error";
     for (int i = 0; i < 4; ++i) part(1, 0.02, true, 100000);
     EXPECT_EQ(difference(part(1, 0, true, 100000), whole), "");
     EXPECT_FALSE(std::filesystem::exists(checkpoint));

@@ -1,8 +1,8 @@
 // What must not change a picture: threads, crops, scale, place, order of rows, grains of no size.
 
+#include "tests/builders/scene_files.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/statistics.h"
-#include "tests/builders/scene_files.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -46,7 +46,9 @@ TEST(Picture, IsTheSameOnAnyNumberOfThreads)
     const TemporaryFolder folder;
     const std::string scene = standard_scene().write(folder);
     for (const int threads : {1, 2, 5}) {
-        EXPECT_EQ(difference(render_picture(scene, [&](RenderJob& job) { job.threads = threads; }), standard_picture()), "") << threads;
+        EXPECT_EQ(difference(render_picture(scene, [&](RenderJob& job) { job.threads = threads; }), standard_picture()),
+                  "")
+            << threads;
     }
 }
 
@@ -55,7 +57,9 @@ TEST(Picture, FollowsTheSeed)
     const TemporaryFolder folder;
     const std::string scene = standard_scene().write(folder);
     for (const uint64_t seed : {uint64_t{1}, uint64_t{1} << 32, ~uint64_t{0}}) {
-        EXPECT_NE(difference(render_picture(scene, [&](RenderJob& job) { job.options.seed = seed; }), standard_picture()), "") << seed;
+        EXPECT_NE(
+            difference(render_picture(scene, [&](RenderJob& job) { job.options.seed = seed; }), standard_picture()), "")
+            << seed;
     }
 }
 
@@ -68,7 +72,9 @@ TEST(Picture, CropsAbutAndAreTheSameAsTheWhole)
     std::vector<int> covered(40 * 30, 0);
     for (int j = 0; j < 3; ++j) {
         for (int i = 0; i < 3; ++i) {
-            const Picture crop = render_picture(scene, [&](RenderJob& job) { job.crop = {xs[i], xs[i + 1], ys[j], ys[j + 1]}; });
+            const Picture crop = render_picture(scene, [&](RenderJob& job) {
+                job.crop = {xs[i], xs[i + 1], ys[j], ys[j + 1]};
+            });
             EXPECT_EQ(difference(crop, standard_picture()), "") << i << "," << j;
             EXPECT_EQ(crop.display, standard_picture().data);
             for (int y = crop.data.min.y; y <= crop.data.max.y; ++y) {
@@ -92,14 +98,17 @@ TEST(Picture, CropOfNoPixelIsAnError)
 {
     const TemporaryFolder folder;
     const std::string scene = standard_scene().write(folder);
-    const auto error = input_error_of([&] { render_picture(scene, [&](RenderJob& job) { job.crop = {0.5, 0.505, 0, 1}; }); });
+    const auto error = input_error_of([&] {
+        render_picture(scene, [&](RenderJob& job) { job.crop = {0.5, 0.505, 0, 1}; });
+    });
     ASSERT_TRUE(error);
     EXPECT_EQ(error->place(), "--cropwindow");
 }
 
 class PictureScaled : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(PowersOfTwo, PictureScaled, testing::Values(-60, -20, -1, 3, 20, 60),
-                         [](const auto& test) { return (test.param < 0 ? "down" : "up") + std::to_string(std::abs(test.param)); });
+INSTANTIATE_TEST_SUITE_P(PowersOfTwo, PictureScaled, testing::Values(-60, -20, -1, 3, 20, 60), [](const auto& test) {
+    return (test.param < 0 ? "down" : "up") + std::to_string(std::abs(test.param));
+});
 
 TEST_P(PictureScaled, IsTheSameToTheBit)
 {
@@ -116,10 +125,13 @@ TEST_P(PictureScaled, IsTheSameWithSurfacesOnly)
         TriangleMesh box = cube();
         for (V3d& p : box.positions) p *= by;
         folder.write("box.obj", obj_text(box));
-        return folder.write("scene.json", fmt::format(R"({{"camera": {{"kind": "orthographic", "origin": [{0:.17g}, {1:.17g}, {0:.17g}], "target": [0, 0, 0], "width": {0:.17g}}},
+        return folder.write(
+            "scene.json",
+            fmt::format(
+                R"({{"camera": {{"kind": "orthographic", "origin": [{0:.17g}, {1:.17g}, {0:.17g}], "target": [0, 0, 0], "width": {0:.17g}}},
             "film": {{"size": [24, 24], "aov": ["depth"]}}, "lights": [{{"kind": "constant"}}],
             "surfaces": [{{"mesh": "box.obj", "material": {{"kind": "dielectric", "ior": 1.3, "roughness": 0.2, "absorption": {2:.17g}}}}}]}})",
-            4 * by, -5 * by, 0.5 / by));
+                4 * by, -5 * by, 0.5 / by));
     };
     const TemporaryFolder folder, scaled;
     EXPECT_EQ(difference(render_picture(write(scale, scaled)), render_picture(write(1, folder)), scale), "");
@@ -189,7 +201,9 @@ struct Harmless {
 void PrintTo(const Harmless& h, std::ostream* out) { *out << h.name; }
 
 class PictureWith : public testing::TestWithParam<Harmless> {};
-INSTANTIATE_TEST_SUITE_P(Types, PictureWith, testing::Values(Harmless{"glass", 1}, Harmless{"clay", 2}, Harmless{"cube", 3}, Harmless{"gem", 4}),
+INSTANTIATE_TEST_SUITE_P(Types, PictureWith,
+                         testing::Values(Harmless{"glass", 1}, Harmless{"clay", 2}, Harmless{"cube", 3},
+                                         Harmless{"gem", 4}),
                          [](const auto& test) { return test.param.name; });
 
 TEST_P(PictureWith, ZeroRadiusIsTheSameAsWithout)
@@ -197,7 +211,7 @@ TEST_P(PictureWith, ZeroRadiusIsTheSameAsWithout)
     SceneFiles files = standard_scene();
     auto& grains = files.frames[0];
     grains.insert(grains.begin() + 20, DumpGrain{1000, GetParam().type, V3d(0.5, 0.25, 0), 0});
-    grains.push_back({1001, GetParam().type, grains[0].center, 0});               // in the middle of a grain
+    grains.push_back({1001, GetParam().type, grains[0].center, 0}); // in the middle of a grain
     grains.push_back({1002, GetParam().type, grains[1].center + V3d(grains[1].radius, 0, 0), 0}); // on a grain
     EXPECT_EQ(difference(picture_of(files), standard_picture()), "");
 }
@@ -262,7 +276,8 @@ TEST(Picture, CoincidentGrainsOfTwoTypesAreOneOfThem)
         files.frames[0] = {{1, first, V3d(0), 1.0}, {2, 1, V3d(3, 0, 0), 1.0}, {3, 3 - first, V3d(0), 1.0}};
         const Picture both = without_ids(picture_of(files));
         EXPECT_TRUE(both.all_finite());
-        const std::string as_clay = difference(both, without_ids(clay)), as_glass = difference(both, without_ids(glass));
+        const std::string as_clay = difference(both, without_ids(clay)),
+                          as_glass = difference(both, without_ids(glass));
         EXPECT_TRUE(as_clay.empty() || as_glass.empty()) << "as clay: " << as_clay << "; as glass: " << as_glass;
     }
 }
@@ -282,13 +297,16 @@ TEST(Picture, OfNothingButGrainsOfNoSizeIsTheBackground)
 TEST(PictureFrames, GrainKeepsItsRotationWhenItsRowChanges)
 {
     const std::vector<DumpGrain> still = {{5, 2, V3d(-2, 0, 0), 1.0}, {7, 3, V3d(0), 1.2}, {9, 4, V3d(2, 0, 0), 1.0}};
-    // In the second frame rows are reversed, and a grain too small to see takes the first place: all indices move by one.
+    // In the second frame rows are reversed, and a grain too small to see takes the first place: all indices move by
+    // one.
     const std::vector<DumpGrain> moved = {still[2], still[1], still[0], {1, 3, V3d(1, 0, 0), 1e-12}};
     SceneFiles files = standard_scene();
     files.frames = {still, moved, {{5, 2, V3d(-2, 0, 0), 1.0}, {8, 3, V3d(0), 1.2}, {9, 4, V3d(2, 0, 0), 1.0}}};
     const TemporaryFolder folder;
     const std::string scene = files.write(folder);
-    const auto frame = [&](size_t n) { return render_picture(scene, [&](RenderJob& job) { job.frames = FrameRange{n, n, 1}; }); };
+    const auto frame = [&](size_t n) {
+        return render_picture(scene, [&](RenderJob& job) { job.frames = FrameRange{n, n, 1}; });
+    };
     const Picture first = frame(0);
     EXPECT_EQ(difference(frame(1), first), "");
     const Picture other_id = frame(2);

@@ -8,7 +8,10 @@ namespace scree::test {
 
 namespace {
 
-std::string lambert(double reflectance) { return fmt::format(R"({{"kind": "lambert", "reflectance": {}}})", reflectance); }
+std::string lambert(double reflectance)
+{
+    return fmt::format(R"({{"kind": "lambert", "reflectance": {}}})", reflectance);
+}
 const std::string sky = R"("lights": [{"kind": "constant", "radiance": 1}], )";
 const std::string glass = R"({"kind": "dielectric", "ior": 1.5})";
 
@@ -17,16 +20,25 @@ std::string lattice(int nx, int ny, int nz, double spacing = 0.5)
 {
     std::string list;
     for (int i = 0; i < nx * ny * nz; ++i) {
-        list += fmt::format(R"({}{{"center": [{}, {}, {}], "radius": 0.25, "type": "a"}})", i ? ", " : "", spacing * (i % nx - 0.5 * (nx - 1)), spacing * (i / nx % ny - 0.5 * (ny - 1)), spacing * (i / nx / ny - 0.5 * (nz - 1)));
+        list += fmt::format(R"({}{{"center": [{}, {}, {}], "radius": 0.25, "type": "a"}})", i ? ", " : "",
+                            spacing * (i % nx - 0.5 * (nx - 1)), spacing * (i / nx % ny - 0.5 * (ny - 1)),
+                            spacing * (i / nx / ny - 0.5 * (nz - 1)));
     }
     return R"("assembly": {"spheres": [)" + list + "]}";
 }
 
-std::string grains(const std::string& types, const std::string& assembly) { return sky + R"("grains": {"types": {)" + types + "}, " + assembly + "}"; }
-std::string type(const std::string& name, const std::string& shape, const std::string& material) { return fmt::format(R"("{}": {{"shape": {}, "material": {}}})", name, shape, material); }
+std::string grains(const std::string& types, const std::string& assembly)
+{
+    return sky + R"("grains": {"types": {)" + types + "}, " + assembly + "}";
+}
+std::string type(const std::string& name, const std::string& shape, const std::string& material)
+{
+    return fmt::format(R"("{}": {{"shape": {}, "material": {}}})", name, shape, material);
+}
 
 const Arguments no_arguments, large{"--size", "400x300"}, far{"-D", "camera.origin=[0, -90000, 5]"};
-const Arguments all_channels{"--aov", "albedo", "--aov", "normal", "--aov", "depth", "--aov", "type", "--aov", "id", "--aov", "variance", "--aov", "samples"};
+const Arguments all_channels{"--aov", "albedo", "--aov", "normal", "--aov",    "depth", "--aov",
+                             "type",  "--aov",  "id",    "--aov",  "variance", "--aov", "samples"};
 
 } // namespace
 
@@ -41,9 +53,12 @@ std::map<std::string, std::string> plan_scenes()
     const std::string ball = R"("sphere")", mesh = R"({"mesh": "cube.obj"})", ten = lattice(5, 2, 1);
     const std::string grey = type("a", ball, lambert(0.5)), bright = type("a", ball, lambert(0.99));
     const std::string floor = R"(, "surfaces": [{"mesh": "floor.obj", "material": )" + lambert(0.5) + "}]";
-    const auto slab = [](const std::string& sigma_t) { return R"("medium": [{"mesh": "slab.obj", "albedo": 0.9, "g": 0.5, "sigma_t": )" + sigma_t + "}]"; };
+    const auto slab = [](const std::string& sigma_t) {
+        return R"("medium": [{"mesh": "slab.obj", "albedo": 0.9, "g": 0.5, "sigma_t": )" + sigma_t + "}]";
+    };
     const auto filled = [&](const std::string& domain, const std::string& radius, const std::string& more) {
-        return grains(bright + more, R"("assembly": {"fill": ")" + domain + R"(", "tile": "tile.vdb", "radius": )" + radius + R"(, "types": {"0": "a", "1": "a"}})");
+        return grains(bright + more, R"("assembly": {"fill": ")" + domain + R"(", "tile": "tile.vdb", "radius": )" +
+                                         radius + R"(, "types": {"0": "a", "1": "a"}})");
     };
     return {
         {"nothing", R"("lights": [])"},
@@ -52,9 +67,13 @@ std::map<std::string, std::string> plan_scenes()
         {"cubes", grains(type("a", mesh, lambert(0.5)), ten)},
         {"library", grains(type("a", R"({"library": "sugar", "triangles": 20})", lambert(0.5)), ten)},
         {"unused glass", grains(grey + ", " + type("b", ball, glass), ten) + floor},
-        {"no size", grains(type("a", mesh, glass), R"("assembly": {"spheres": [{"center": [0, 0, 0], "radius": 0}]})") + floor},
+        {"no size",
+         grains(type("a", mesh, glass), R"("assembly": {"spheres": [{"center": [0, 0, 0], "radius": 0}]})") + floor},
         {"glass on a floor", grains(type("a", ball, glass), ten) + floor},
-        {"two colours", grains(grey + ", " + type("b", ball, lambert(0.7)), R"("assembly": {"spheres": [{"center": [0, 0, 0], "radius": 1, "type": "a"}, {"center": [2, 0, 0], "radius": 1, "type": "b"}]})")},
+        {"two colours",
+         grains(
+             grey + ", " + type("b", ball, lambert(0.7)),
+             R"("assembly": {"spheres": [{"center": [0, 0, 0], "radius": 1, "type": "a"}, {"center": [2, 0, 0], "radius": 1, "type": "b"}]})")},
         {"many", grains(bright, lattice(13, 13, 13))},
         {"many cubes", grains(type("a", mesh, lambert(0.99)), lattice(13, 13, 13))},
         {"many dark", grains(grey, lattice(13, 13, 13))},
@@ -66,39 +85,50 @@ std::map<std::string, std::string> plan_scenes()
         {"coloured slab", sky + slab("[4, 5, 6]")},
         {"slab among grains", grains(grey, ten) + ", " + slab("5")},
         {"slab and bed", grains(bright, lattice(9, 9, 9)) + ", " + slab("5")},
-        {"slab around a light", R"("lights": [{"kind": "sphere", "center": [0, 0, -0.5], "radius": 0.1, "radiance": 1}], )" + slab("5")},
+        {"slab around a light",
+         R"("lights": [{"kind": "sphere", "center": [0, 0, -0.5], "radius": 0.1, "radiance": 1}], )" + slab("5")},
         {"cloud", sky + R"("medium": [{"vdb": "cloud.vdb", "scale": 5, "albedo": 0.9}])"},
         {"dense cloud", sky + R"("medium": [{"vdb": "cloud.vdb", "scale": 20, "albedo": 0.9995, "g": 0.9}])"},
         {"denser cloud", sky + R"("medium": [{"vdb": "cloud.vdb", "scale": 200, "albedo": 0.9995, "g": 0.9}])"},
         {"empty cloud", sky + R"("medium": [{"vdb": "empty.vdb"}])"},
-        {"lamp", R"("lights": [{"kind": "rectangle", "corner": [0, 0, 9], "edges": [[1, 0, 0], [0, 1, 0]], "radiance": 10}])"},
+        {"lamp",
+         R"("lights": [{"kind": "rectangle", "corner": [0, 0, 9], "edges": [[1, 0, 0], [0, 1, 0]], "radiance": 10}])"},
         {"sky map", R"("lights": [{"kind": "environment", "file": "sky.exr"}])"},
         {"fill", filled("ball.obj", "0.07", "")},
         {"fill of one type", filled("ball.obj", "0.07", ", " + type("b", mesh, glass))},
-        {"fill of a mixture", R"("lights": [], "grains": {"types": {)" + bright + ", " + type("b", ball, lambert(0.5)) + ", " + type("c", mesh, glass) +
-            R"(}, "mixture": {"kind": "random", "types": ["a", "b", "c"], "weights": [1, 1, 0]}, "assembly": {"fill": "ball.obj", "tile": "tile.vdb", "radius": 0.07}})"},
-        {"pattern", R"("lights": [], "grains": {"types": {)" + bright + ", " + type("b", ball, lambert(0.5)) +
-            R"(}, "mixture": {"kind": "perlin", "types": ["a", "b"], "scale": 1}, "assembly": {"fill": "slab.obj", "tile": "tile.vdb", "radius": 0.07}})"},
+        {"fill of a mixture",
+         R"("lights": [], "grains": {"types": {)" + bright + ", " + type("b", ball, lambert(0.5)) + ", " +
+             type("c", mesh, glass) +
+             R"(}, "mixture": {"kind": "random", "types": ["a", "b", "c"], "weights": [1, 1, 0]}, "assembly": {"fill": "ball.obj", "tile": "tile.vdb", "radius": 0.07}})"},
+        {"pattern",
+         R"("lights": [], "grains": {"types": {)" + bright + ", " + type("b", ball, lambert(0.5)) +
+             R"(}, "mixture": {"kind": "perlin", "types": ["a", "b"], "scale": 1}, "assembly": {"fill": "slab.obj", "tile": "tile.vdb", "radius": 0.07}})"},
     };
 }
 
 std::vector<PlanRow> plan_rows()
 {
     std::vector<PlanRow> rows;
-    const auto planned = [&](const std::string& name, const std::string& scene, const Arguments& arguments, const std::string& part, bool built, const std::string& reason) {
+    const auto planned = [&](const std::string& name, const std::string& scene, const Arguments& arguments,
+                             const std::string& part, bool built, const std::string& reason) {
         rows.push_back({name, scene, with(arguments, plan_only), part, built, reason});
     };
-    const auto traced = [&](const std::string& name, const std::string& scene, const Arguments& arguments, const std::string& part, bool built, const std::string& reason) {
+    const auto traced = [&](const std::string& name, const std::string& scene, const Arguments& arguments,
+                            const std::string& part, bool built, const std::string& reason) {
         rows.push_back({name, scene, arguments, part, built, reason});
     };
-    const std::string medium = "medium of the grains", walk = "walk in the packing", distances = "distances within media", inside = "surfaces inside grains";
+    const std::string medium = "medium of the grains", walk = "walk in the packing",
+                      distances = "distances within media", inside = "surfaces inside grains";
 
     // Without grains, media, lights.
     for (const char* part : {"explicit grains", "proxies", "medium of the grains"}) {
-        for (const Arguments& how : {no_arguments, ept, ppt, vpt, stf}) planned("no grains", "nothing", how, part, false, "the scene has no grains");
+        for (const Arguments& how : {no_arguments, ept, ppt, vpt, stf})
+            planned("no grains", "nothing", how, part, false, "the scene has no grains");
     }
-    for (const char* part : {"grains", "surfaces", "medium"}) planned("nothing", "nothing", {}, part, false, "the scene has none");
-    for (const auto& part : {distances, std::string("shells")}) planned("no medium", "nothing", stf, part, false, "there is no medium");
+    for (const char* part : {"grains", "surfaces", "medium"})
+        planned("nothing", "nothing", {}, part, false, "the scene has none");
+    for (const auto& part : {distances, std::string("shells")})
+        planned("no medium", "nothing", stf, part, false, "there is no medium");
     planned("no map", "nothing", {}, "environment map", false, "no light has one");
     planned("no light", "nothing", {}, "light sampling", false, "the scene has no light");
     planned("no grains", "nothing", {}, inside, false, "no path can be inside a grain and meet a surface");
@@ -113,18 +143,23 @@ std::vector<PlanRow> plan_rows()
     planned("few", "ten", {}, "explicit grains", true, "every grain as it is: there are fewer than 2000");
     planned("few", "ten", {}, "proxies", false, "every grain is traced as it is");
     planned("ept", "ten", ept, "explicit grains", true, "every grain as it is");
-    planned("reference", "many", {"--accuracy", "reference"}, "explicit grains", true, "the accuracy is that of a reference");
+    planned("reference", "many", {"--accuracy", "reference"}, "explicit grains", true,
+            "the accuracy is that of a reference");
     planned("dark", "many dark", {}, "explicit grains", true, "light meets some 1.4 of them");
     planned("ppt", "ten", ppt, "explicit grains", false, "proxies stand for grains");
     planned("ppt", "ten", ppt, "proxies", true, "after 0 grains of a path");
-    planned("ppt and grains", "ten", with(ppt, {"--explicit-grains", "2"}), "explicit grains", true, "proxies stand for all grains but the first 2 of a path");
-    planned("ppt and grains", "ten", with(ppt, {"--explicit-grains", "2"}), "proxies", true, "after 2 grains of a path");
+    planned("ppt and grains", "ten", with(ppt, {"--explicit-grains", "2"}), "explicit grains", true,
+            "proxies stand for all grains but the first 2 of a path");
+    planned("ppt and grains", "ten", with(ppt, {"--explicit-grains", "2"}), "proxies", true,
+            "after 2 grains of a path");
     planned("bright", "many", large, "proxies", true, "after 1 grains of a path");
     planned("bright", "many", large, "explicit grains", true, "proxies stand for all grains but the first of a path");
     planned("draft", "many", draft, "explicit grains", false, "the accuracy is that of a draft");
     planned("far", "many", far, "explicit grains", false, "pixels wide");
-    planned("asked", "ten", with(draft, {"--explicit-grains", "3"}), "explicit grains", true, "the first 3 of a path, as asked for");
-    planned("asked", "ten", with(draft, {"--explicit-grains", "0"}), "explicit grains", false, "proxies stand for grains, as asked for");
+    planned("asked", "ten", with(draft, {"--explicit-grains", "3"}), "explicit grains", true,
+            "the first 3 of a path, as asked for");
+    planned("asked", "ten", with(draft, {"--explicit-grains", "0"}), "explicit grains", false,
+            "proxies stand for grains, as asked for");
     planned("vpt", "bed", vpt, "explicit grains", false, "a medium stands for all grains");
     planned("vpt", "bed", vpt, "proxies", false, "a medium stands for all grains");
 
@@ -137,15 +172,18 @@ std::vector<PlanRow> plan_rows()
     planned("no size", "no size", {}, inside, false, "no path");
     planned("cubes", "cubes", {}, "exemplar 'a'", true, "12 triangles");
     planned("library", "library", {}, "exemplar 'a'", true, "triangles of the library's sugar");
-    for (const char* part : {"exemplar 'b'", "gsdf 'b'"}) planned("not in the tile", "fill of one type", ppt, part, false, "no grain has this type");
-    for (const char* part : {"exemplar 'c'", "gsdf 'c'"}) planned("not in the mixture", "fill of a mixture", ppt, part, false, "no grain has this type");
+    for (const char* part : {"exemplar 'b'", "gsdf 'b'"})
+        planned("not in the tile", "fill of one type", ppt, part, false, "no grain has this type");
+    for (const char* part : {"exemplar 'c'", "gsdf 'c'"})
+        planned("not in the mixture", "fill of a mixture", ppt, part, false, "no grain has this type");
     planned("in the mixture", "fill of a mixture", ppt, "gsdf 'b'", true, "to be traced");
     planned("no proxies", "cubes", {}, "gsdf 'a'", false, "no grain is a proxy, and no medium stands for any");
     for (const Arguments& how : {ppt, vpt, stf}) {
         planned("only for gsdfs", "cubes", how, "exemplar 'a'", false, "no grain is traced as it is");
         planned("to be traced", "cubes", how, "gsdf 'a'", true, "to be traced to an error of 8 %; not in the cache");
     }
-    for (const Arguments& how : {draft, far}) planned("never as they are", "many cubes", how, "exemplar 'a'", false, "no grain is traced as it is");
+    for (const Arguments& how : {draft, far})
+        planned("never as they are", "many cubes", how, "exemplar 'a'", false, "no grain is traced as it is");
     planned("the first", "many cubes", large, "exemplar 'a'", true, "12 triangles");
     traced("made once", "two colours", ppt, "gsdf 'a'", true, "traced, ");
     traced("made once", "two colours", ppt, "gsdf 'b'", true, "made already, for another type or frame");
@@ -177,7 +215,8 @@ std::vector<PlanRow> plan_rows()
     // Media in the place of grains.
     planned("everywhere grains", "ten", {}, medium, false, "the integrator traces grains everywhere");
     planned("thin", "thin", {}, medium, false, "hardly a grain is 4 mean radii deep");
-    planned("not as deep", "bed", with(ept, {"--grain-depth", "100"}), medium, false, "no place is 100 mean radii deep");
+    planned("not as deep", "bed", with(ept, {"--grain-depth", "100"}), medium, false,
+            "no place is 100 mean radii deep");
     planned("not as deep", "bed", with(ept, {"--grain-depth", "100"}), "gsdf 'a'", false, "no grain is a proxy");
     planned("deep", "many", draft, medium, true, "to be made, where there is a place 2 mean radii below every face");
     planned("all", "bed", vpt, medium, true, "to be made, in place of all grains");
@@ -188,8 +227,10 @@ std::vector<PlanRow> plan_rows()
     traced("all", "bed", with(vpt, formula), walk, false, "the form of the medium needs none");
     traced("fill", "fill", with(vpt, formula), medium, true, "the same everywhere");
     traced("pattern", "pattern", with(vpt, formula), medium, true, "as the grains vary");
-    traced("apart", "apart", with(ept, {"--accuracy", "draft", "--grain-depth", "3"}), medium, false, "no place is 3 mean radii deep");
-    traced("apart", "apart", with(ept, {"--accuracy", "draft", "--grain-depth", "3"}), walk, false, "no medium follows from it");
+    traced("apart", "apart", with(ept, {"--accuracy", "draft", "--grain-depth", "3"}), medium, false,
+           "no place is 3 mean radii deep");
+    traced("apart", "apart", with(ept, {"--accuracy", "draft", "--grain-depth", "3"}), walk, false,
+           "no medium follows from it");
     traced("apart", "apart", vpt, medium, false, "no grain is deeper than a radius");
     traced("apart", "apart", stf, "shells", false, "there is no medium");
 
@@ -203,33 +244,46 @@ std::vector<PlanRow> plan_rows()
     planned("to come", "cloud", {}, "shells", true, "to be made, where one of 8 mean free paths fits in a medium");
     planned("to come", "cloud", {}, "shells", true, "fits in a medium and, in grids, where they save work");
     planned("to come", "slab", stf, "shells", true, "to be made, where one of 1 mean free paths fits in a medium");
-    planned("to come", "slab", {"--least-shell", "2"}, "shells", true, "to be made, where one of 2 mean free paths fits in a medium");
+    planned("to come", "slab", {"--least-shell", "2"}, "shells", true,
+            "to be made, where one of 2 mean free paths fits in a medium");
     planned("to come", "bed", stf, "shells", true, "to be made");
-    planned("small shells", "slab", {}, "shells", false, "none can have more than 2.5 mean free paths, of use are 8 and more");
-    planned("thin", "thin slab", stf, "shells", false, "none can have more than 0.0005 mean free paths, of use are 1 and more");
+    planned("small shells", "slab", {}, "shells", false,
+            "none can have more than 2.5 mean free paths, of use are 8 and more");
+    planned("thin", "thin slab", stf, "shells", false,
+            "none can have more than 0.0005 mean free paths, of use are 1 and more");
     planned("coloured", "coloured slab", stf, "shells", false, "the extinction of every medium depends on the channel");
     planned("stepwise", "slab", vpt, "shells", false, "light is followed from scattering to scattering in media");
-    planned("among grains", "slab among grains", {}, distances, false, "grains, or a spherical light, may be met in it");
+    planned("among grains", "slab among grains", {}, distances, false,
+            "grains, or a spherical light, may be met in it");
     planned("among grains", "slab among grains", {}, "shells", false, "grains, or a spherical light, may be met in it");
     planned("among no grains any more", "slab and bed", stf, "shells", true, "to be made");
     traced("slab", "slab", draft, distances, true, "from all that may be met there");
     const Arguments shells{"--shells", "on"};
-    traced("slab", "slab", with(with(draft, shells), diffusion), "shells of 'slab.obj'", true, "mean free paths for 1 values of g, 0 made now");
-    traced("slab", "slab", with(draft, shells), "shells of 'slab.obj'", true, "mean free paths for 1 values of g, 3 made now");
+    traced("slab", "slab", with(with(draft, shells), diffusion), "shells of 'slab.obj'", true,
+           "mean free paths for 1 values of g, 0 made now");
+    traced("slab", "slab", with(draft, shells), "shells of 'slab.obj'", true,
+           "mean free paths for 1 values of g, 3 made now");
     traced("small shells", "slab", draft, "shells of 'slab.obj'", false, "of use are 8 and more");
     traced("slab", "slab", vpt, "shells", false, "light is followed from scattering to scattering in media");
     traced("slab", "slab", vpt, distances, true, "from all that may be met there");
     traced("coloured", "coloured slab", stf, "shells of 'slab.obj'", false, "its extinction depends on the channel");
     traced("thin", "thin slab", stf, "shells of 'slab.obj'", false, "none fits: no place is a mean free path away");
-    traced("among grains", "slab among grains", draft, distances, false, "grains, or a spherical light, may be met in it");
-    traced("among grains", "slab among grains", draft, "shells of 'slab.obj'", false, "grains, or a spherical light, may be met in it");
-    traced("around a light", "slab around a light", draft, "shells of 'slab.obj'", false, "grains, or a spherical light, may be met in it");
+    traced("among grains", "slab among grains", draft, distances, false,
+           "grains, or a spherical light, may be met in it");
+    traced("among grains", "slab among grains", draft, "shells of 'slab.obj'", false,
+           "grains, or a spherical light, may be met in it");
+    traced("around a light", "slab around a light", draft, "shells of 'slab.obj'", false,
+           "grains, or a spherical light, may be met in it");
     traced("cloud", "cloud", with(draft, diffusion), "medium 'cloud.vdb'", true, "from grids");
     traced("cloud", "cloud", with(with(draft, shells), diffusion), "shells of 'cloud.vdb'", true, "for 1 values of g");
-    traced("save nothing", "dense cloud", with(draft, diffusion), "shells of 'cloud.vdb'", false, "of the work, of use are 95 % and less");
+    traced("save nothing", "dense cloud", with(draft, diffusion), "shells of 'cloud.vdb'", false,
+           "of the work, of use are 95 % and less");
     traced("save work", "denser cloud", with(draft, diffusion), "shells of 'cloud.vdb'", true, "each, for ");
-    for (const Arguments& asked : {Arguments{"--least-shell", "8"}, shells}) traced("asked for", "dense cloud", with(with(draft, asked), diffusion), "shells of 'cloud.vdb'", true, "0 made now");
-    traced("of grains", "bed", with(with(stf, diffusion), formula), "shells of 'medium of the grains'", true, "values of g");
+    for (const Arguments& asked : {Arguments{"--least-shell", "8"}, shells})
+        traced("asked for", "dense cloud", with(with(draft, asked), diffusion), "shells of 'cloud.vdb'", true,
+               "0 made now");
+    traced("of grains", "bed", with(with(stf, diffusion), formula), "shells of 'medium of the grains'", true,
+           "values of g");
     traced("empty", "empty cloud", draft, "shells", false, "there is no medium");
     return rows;
 }

@@ -8,7 +8,8 @@ namespace scree::test {
 
 using Arguments = std::vector<std::string>;
 
-/// A line that `scree render` prints for a scene: of the plan where the arguments hold `--plan`, else of the statistics.
+/// A line that `scree render` prints for a scene: of the plan where the arguments hold `--plan`, else of the
+/// statistics.
 struct PlanRow {
     std::string name, scene;
     Arguments arguments;
@@ -17,7 +18,8 @@ struct PlanRow {
     std::string reason; ///< a part of it
 };
 
-/// Scenes by name: their keys but for camera and film. They name cube.obj, floor.obj, slab.obj, ball.obj, tile.vdb, cloud.vdb, empty.vdb, sky.exr.
+/// Scenes by name: their keys but for camera and film. They name cube.obj, floor.obj, slab.obj, ball.obj, tile.vdb,
+/// cloud.vdb, empty.vdb, sky.exr.
 std::map<std::string, std::string> plan_scenes();
 
 /// A row at least for every line there is, in this order: what is traced for one scene another finds in the cache.
@@ -27,7 +29,9 @@ std::vector<PlanRow> plan_rows();
 Arguments with(Arguments a, const Arguments& b);
 
 // Ways to render.
-inline const Arguments plan_only{"--plan"}, ept{"--integrator", "ept"}, ppt{"--integrator", "ppt", "--accuracy", "draft"}, vpt{"--integrator", "vpt", "--accuracy", "draft"},
-    stf{"--integrator", "stf", "--accuracy", "draft"}, draft{"--accuracy", "draft"}, formula{"--medium-form", "formula"}, diffusion{"--stf-form", "diffusion"};
+inline const Arguments plan_only{"--plan"}, ept{"--integrator", "ept"},
+    ppt{"--integrator", "ppt", "--accuracy", "draft"}, vpt{"--integrator", "vpt", "--accuracy", "draft"},
+    stf{"--integrator", "stf", "--accuracy", "draft"}, draft{"--accuracy", "draft"},
+    formula{"--medium-form", "formula"}, diffusion{"--stf-form", "diffusion"};
 
 } // namespace scree::test

@@ -3,9 +3,9 @@
 #include "packing/tiles/tile_generator.h"
 #include "render/app/render_command.h"
 #include "render/scene/scene_description.h"
+#include "tests/builders/scene_files.h"
 #include "tests/builders/shapes.h"
 #include "tests/render/loop/plan_rows.h"
-#include "tests/builders/scene_files.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -72,8 +72,11 @@ protected:
     {
         const auto [found, is_new] = lines_.try_emplace({scene, more});
         if (!is_new) return found->second;
-        write("scene.json", R"({"camera": {"origin": [0, -9, 5], "target": [0, 0, 0]}, "film": {"size": [8, 6], "filter": "box"}, )" + scenes_.at(scene) + "}");
-        std::vector<std::string> arguments{"render", path("scene.json"), "-q", "--spp", "1", "--stats-json", path("stats.json")};
+        write("scene.json",
+              R"({"camera": {"origin": [0, -9, 5], "target": [0, 0, 0]}, "film": {"size": [8, 6], "filter": "box"}, )" +
+                  scenes_.at(scene) + "}");
+        std::vector<std::string> arguments{"render",       path("scene.json"), "-q", "--spp", "1",
+                                           "--stats-json", path("stats.json")};
         arguments.insert(arguments.end(), more.begin(), more.end());
         if (std::ranges::find(more, "-o") == more.end()) arguments.insert(arguments.end(), {"-o", path("out.exr")});
         std::filesystem::remove(path("stats.json"));
@@ -90,8 +93,10 @@ protected:
         const std::string text = testing::internal::GetCapturedStdout();
         EXPECT_EQ(wrong, "") << scene;
         if (!wrong.empty()) return found->second;
-        if (std::ranges::find(more, "--plan") != more.end()) read_plan(text, found->second);
-        else read_statistics(found->second);
+        if (std::ranges::find(more, "--plan") != more.end())
+            read_plan(text, found->second);
+        else
+            read_statistics(found->second);
         return found->second;
     }
     static void read_plan(const std::string& text, std::vector<Line>& lines)
@@ -101,15 +106,19 @@ protected:
             const bool built = line.starts_with("  built ");
             if (!built && !line.starts_with("  skipped ")) continue;
             // A part's name ends at its quote, or is shorter than its column.
-            const size_t quote = line.find('\''), end = quote < reason_at ? line.find("' ", part_at) + 1 : line.find_last_not_of(' ', reason_at - 1) + 1;
-            lines.push_back({line.substr(part_at, end - part_at), built, line.substr(line.find_first_not_of(' ', end))});
+            const size_t quote = line.find('\''), end = quote < reason_at
+                                                            ? line.find("' ", part_at) + 1
+                                                            : line.find_last_not_of(' ', reason_at - 1) + 1;
+            lines.push_back(
+                {line.substr(part_at, end - part_at), built, line.substr(line.find_first_not_of(' ', end))});
         }
     }
     void read_statistics(std::vector<Line>& lines) const
     {
         const json statistics = json::parse(read_bytes(path("stats.json")));
         for (const json& part : statistics.at("frames").back().at("parts")) {
-            lines.push_back({part.at("part"), part.at("built"), part.at("reason"), part.at("seconds"), part.at("bytes")});
+            lines.push_back(
+                {part.at("part"), part.at("built"), part.at("reason"), part.at("seconds"), part.at("bytes")});
         }
     }
 
@@ -119,7 +128,10 @@ protected:
 };
 
 /// Numbers vary; names do not.
-std::string without_numbers(const std::string& text) { return std::regex_replace(text, std::regex("[0-9]+([.][0-9]+)?(e[+-]?[0-9]+)?"), "#"); }
+std::string without_numbers(const std::string& text)
+{
+    return std::regex_replace(text, std::regex("[0-9]+([.][0-9]+)?(e[+-]?[0-9]+)?"), "#");
+}
 
 const Line* find_line(const std::vector<Line>& lines, const std::string& part)
 {
@@ -139,11 +151,15 @@ TEST_F(PlanLines, EveryLineIsPrintedForAScene)
     }
     // And none is printed that no row expects.
     std::set<std::tuple<std::string, bool, std::string>> expected;
-    for (const PlanRow& row : rows) expected.insert({Line{row.part, row.built, ""}.kind(), row.built, without_numbers(row.reason)});
+    for (const PlanRow& row : rows)
+        expected.insert({Line{row.part, row.built, ""}.kind(), row.built, without_numbers(row.reason)});
     for (const auto& [call, lines] : lines_) {
         for (const Line& line : lines) {
             const std::string reason = without_numbers(line.reason);
-            const bool is_expected = std::ranges::any_of(expected, [&](const auto& row) { return std::get<0>(row) == line.kind() && std::get<1>(row) == line.built && reason.find(std::get<2>(row)) != std::string::npos; });
+            const bool is_expected = std::ranges::any_of(expected, [&](const auto& row) {
+                return std::get<0>(row) == line.kind() && std::get<1>(row) == line.built &&
+                       reason.find(std::get<2>(row)) != std::string::npos;
+            });
             EXPECT_TRUE(is_expected) << call.first << ": " << line.part << ": " << line.reason;
         }
     }
@@ -151,9 +167,13 @@ TEST_F(PlanLines, EveryLineIsPrintedForAScene)
 
 TEST_F(PlanLines, DoNotContradictEachOther)
 {
-    for (const Arguments& how : {draft, ept, ppt, with(vpt, formula), with(with(stf, diffusion), formula), with(with(ept, {"--accuracy", "draft", "--grain-depth", "3"}), formula), with(ppt, {"--explicit-grains", "1"})}) {
+    for (const Arguments& how : {draft, ept, ppt, with(vpt, formula), with(with(stf, diffusion), formula),
+                                 with(with(ept, {"--accuracy", "draft", "--grain-depth", "3"}), formula),
+                                 with(ppt, {"--explicit-grains", "1"})}) {
         for (const auto& [name, keys] : scenes_) {
-            if (name.starts_with("many") || name == "thin" || name == "pattern" || name == "library" || name == "fill of a mixture") continue; // take longer, and have nothing new
+            if (name.starts_with("many") || name == "thin" || name == "pattern" || name == "library" ||
+                name == "fill of a mixture")
+                continue; // take longer, and have nothing new
             SCOPED_TRACE(fmt::format("{} {}", name, fmt::join(how, " ")));
             const std::vector<Line>&planned = run(name, with(how, plan_only)), &lines = run(name, how);
             const auto is_built = [&](const std::string& part) {
@@ -167,13 +187,22 @@ TEST_F(PlanLines, DoNotContradictEachOther)
                 EXPECT_GE(line.seconds, 0) << line.part;
                 EXPECT_GE(line.bytes, 0) << line.part;
                 const std::string kind = line.kind();
-                const bool of_memory = !std::set<std::string>{"explicit grains", "proxies", "surfaces inside grains", "light sampling", "walk in the packing", "acceleration structure", "shells of"}.contains(kind) && !kind.starts_with("channels");
+                const bool of_memory = !std::set<std::string>{"explicit grains",
+                                                              "proxies",
+                                                              "surfaces inside grains",
+                                                              "light sampling",
+                                                              "walk in the packing",
+                                                              "acceleration structure",
+                                                              "shells of"}
+                                            .contains(kind) &&
+                                       !kind.starts_with("channels");
                 if (!line.built) {
                     EXPECT_EQ(line.bytes, 0) << line.part;
                 } else if (of_memory) {
                     EXPECT_GT(line.bytes, 0) << line.part;
                 }
-                if (line.built && (of_memory || kind == "shells of" || kind == "walk in the packing" || kind == "acceleration structure")) {
+                if (line.built && (of_memory || kind == "shells of" || kind == "walk in the packing" ||
+                                   kind == "acceleration structure")) {
                     EXPECT_GT(line.seconds, 0) << line.part;
                 }
                 if (line.built && kind == "exemplar") {
@@ -186,7 +215,8 @@ TEST_F(PlanLines, DoNotContradictEachOther)
                     EXPECT_TRUE(is_built("distances within media"));
                 }
                 if (line.built && kind == "distances within media") {
-                    EXPECT_TRUE(std::ranges::any_of(lines, [](const Line& other) { return other.built && other.part.starts_with("medium "); }));
+                    EXPECT_TRUE(std::ranges::any_of(
+                        lines, [](const Line& other) { return other.built && other.part.starts_with("medium "); }));
                 }
                 // What the plan skips is not built after all, and the other way round but for what only the work shows.
                 const Line* before = find_line(planned, line.part);
@@ -232,8 +262,10 @@ TEST_F(PlanLines, TenOpaqueGrainsNeedNothing)
 TEST_F(PlanLines, StatisticsAreTextAsWell)
 {
     const Arguments how{"--stats", "--integrator", "ppt", "--accuracy", "draft"};
-    write("text.json", R"({"camera": {"origin": [0, -9, 5], "target": [0, 0, 0]}, "film": {"size": [8, 6]}, )" + scenes_.at("ten on a floor") + "}");
-    std::vector<std::string> arguments = with({"render", path("text.json"), "-q", "--spp", "1", "-o", path("out.exr")}, how);
+    write("text.json", R"({"camera": {"origin": [0, -9, 5], "target": [0, 0, 0]}, "film": {"size": [8, 6]}, )" +
+                           scenes_.at("ten on a floor") + "}");
+    std::vector<std::string> arguments =
+        with({"render", path("text.json"), "-q", "--spp", "1", "-o", path("out.exr")}, how);
     CLI::App app;
     add_render_command(app);
     std::ranges::reverse(arguments);

@@ -3,9 +3,9 @@
 #include "render/film/checkpoint.h"
 #include "render/film/exr_output.h"
 #include "render/loop/render_loop.h"
+#include "tests/builders/scene_files.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
-#include "tests/builders/scene_files.h"
 
 #include <gmock/gmock.h>
 
@@ -52,14 +52,16 @@ void write_sky(const std::filesystem::path& path, double radiance)
     write_exr(path, film, {}, {});
 }
 
-/// A render that a timeout stopped after its first wave; `found` says what a resumption finds wrong, "" when nothing is.
+/// A render that a timeout stopped after its first wave; `found` says what a resumption finds wrong, "" when nothing
+/// is.
 class PictureResumedOnOther : public testing::Test {
 protected:
     PictureResumedOnOther()
     {
         files_.orientations = true;
         write_sky(folder_.path("sky.exr"), 1);
-        scene_ = folder_.write("sky.json", replace_all(read_bytes(files_.write(folder_)), R"({"kind": "constant", "radiance": [0.3, 0.35, 0.4]})",
+        scene_ = folder_.write("sky.json", replace_all(read_bytes(files_.write(folder_)),
+                                                       R"({"kind": "constant", "radiance": [0.3, 0.35, 0.4]})",
                                                        R"({"kind": "environment", "file": "sky.exr"})"));
         render_picture(scene_, [](RenderJob& job) {
             job.spp = 12;
@@ -86,15 +88,31 @@ protected:
 };
 
 TEST_F(PictureResumedOnOther, NothingIsFine) { EXPECT_EQ(found(), ""); }
-TEST_F(PictureResumedOnOther, SeedIsRefused) { EXPECT_THAT(found([](RenderJob& job) { job.options.seed = 1; }), HasSubstr(other_)); }
-TEST_F(PictureResumedOnOther, SizeIsRefused) { EXPECT_THAT(found([](RenderJob& job) { job.size = {41, 30}; }), HasSubstr(other_)); }
-TEST_F(PictureResumedOnOther, CropIsRefused) { EXPECT_THAT(found([](RenderJob& job) { job.crop = {0, 0.5, 0, 1}; }), HasSubstr(other_)); }
-TEST_F(PictureResumedOnOther, DepthLimitIsRefused) { EXPECT_THAT(found([](RenderJob& job) { job.max_depth = 3; }), HasSubstr(other_)); }
+TEST_F(PictureResumedOnOther, SeedIsRefused)
+{
+    EXPECT_THAT(found([](RenderJob& job) { job.options.seed = 1; }), HasSubstr(other_));
+}
+TEST_F(PictureResumedOnOther, SizeIsRefused)
+{
+    EXPECT_THAT(found([](RenderJob& job) { job.size = {41, 30}; }), HasSubstr(other_));
+}
+TEST_F(PictureResumedOnOther, CropIsRefused)
+{
+    EXPECT_THAT(found([](RenderJob& job) { job.crop = {0, 0.5, 0, 1}; }), HasSubstr(other_));
+}
+TEST_F(PictureResumedOnOther, DepthLimitIsRefused)
+{
+    EXPECT_THAT(found([](RenderJob& job) { job.max_depth = 3; }), HasSubstr(other_));
+}
 TEST_F(PictureResumedOnOther, DirectLightIsRefused)
 {
-    EXPECT_THAT(found([](RenderJob& job) { job.options.path.direct_light = DirectLight::lights_only; }), HasSubstr(other_));
+    EXPECT_THAT(found([](RenderJob& job) { job.options.path.direct_light = DirectLight::lights_only; }),
+                HasSubstr(other_));
 }
-TEST_F(PictureResumedOnOther, SceneIsRefused) { EXPECT_THAT(found([](RenderJob& job) { job.overrides = {{"camera.fov", "41"}}; }), HasSubstr(other_)); }
+TEST_F(PictureResumedOnOther, SceneIsRefused)
+{
+    EXPECT_THAT(found([](RenderJob& job) { job.overrides = {{"camera.fov", "41"}}; }), HasSubstr(other_));
+}
 
 TEST_F(PictureResumedOnOther, RadiusIsRefused)
 {
@@ -127,7 +145,8 @@ TEST_F(PictureResumedOnOther, DamagedCheckpointIsRefused)
 {
     folder_.write("out.exr.checkpoint", checkpoint_.substr(0, checkpoint_.size() - 1));
     EXPECT_THAT(found(), HasSubstr("ends early"));
-    folder_.write("out.exr.checkpoint", "something else entirely, longer than the head of a checkpoint could be, by far");
+    folder_.write("out.exr.checkpoint",
+                  "something else entirely, longer than the head of a checkpoint could be, by far");
     EXPECT_THAT(found(), HasSubstr("no checkpoint"));
     folder_.write("out.exr.checkpoint", "");
     EXPECT_THAT(found(), HasSubstr("no checkpoint"));
@@ -149,7 +168,8 @@ struct SmallScene {
     {
         RenderOptions options;
         options.spp = spp;
-        return render(scene.world(), scene.tracer(), Camera(description, film.width(), film.height()), Filter(), film, options, progress);
+        return render(scene.world(), scene.tracer(), Camera(description, film.width(), film.height()), Filter(), film,
+                      options, progress);
     }
     TestScene scene;
     CameraDescription description;

@@ -1,8 +1,8 @@
 // Every BSDF's sampler against its density, and the rough ones against their own evaluation: what a microsurface walk
 // draws must be distributed as what its estimator integrates to, and nothing may be lost.
 
-#include "render/materials/bsdf.h"
 #include "base/warp.h"
+#include "render/materials/bsdf.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/statistics.h"
 
@@ -49,8 +49,9 @@ TEST(Lambert, SamplesItsDensity)
         }
         for (int band = 0; band < bands; ++band) { // cos / pi integrates to the difference of cos^2 over a band
             const double lo = -1 + 2.0 * band / bands, hi = lo + 2.0 / bands;
-            const double mass = cosine > 0 ? std::max(0.0, hi) * std::max(0.0, hi) - std::max(0.0, lo) * std::max(0.0, lo)
-                                           : std::min(0.0, lo) * std::min(0.0, lo) - std::min(0.0, hi) * std::min(0.0, hi);
+            const double mass = cosine > 0
+                                    ? std::max(0.0, hi) * std::max(0.0, hi) - std::max(0.0, lo) * std::max(0.0, lo)
+                                    : std::min(0.0, lo) * std::min(0.0, lo) - std::min(0.0, hi) * std::min(0.0, hi);
             for (int s = 0; s < sectors; ++s) expected[static_cast<size_t>(band * sectors + s)] = n * mass / sectors;
         }
         const ChiSquare test = chi_square(observed, expected);
@@ -77,8 +78,8 @@ std::vector<RoughCase> rough_cases()
     return cases;
 }
 
-// The walk's sampler (weighted) against its estimator over the sphere: two-sample chi-square, 256 cells, 150,000 draws each.
-// A single cell wrong by 10 % at 1,000 counts, or the whole by 1 %, is found.
+// The walk's sampler (weighted) against its estimator over the sphere: two-sample chi-square, 256 cells, 150,000 draws
+// each. A single cell wrong by 10 % at 1,000 counts, or the whole by 1 %, is found.
 TEST(Rough, SamplesWhatItEvaluates)
 {
     const auto cases = rough_cases();
@@ -94,7 +95,8 @@ TEST(Rough, SamplesWhatItEvaluates)
             // A weight below 1 is turned into a count by chance.
             if (sampler.next() < s.weight.x) drawn[cell_of(s.wi)] += 1;
         }
-        // Stratified over the cells: each gets the same number of uniform directions, so that its integral has a small error.
+        // Stratified over the cells: each gets the same number of uniform directions, so that its integral has a small
+        // error.
         const int per_cell = 5000;
         for (int band = 0; band < bands; ++band) {
             for (int sector = 0; sector < sectors; ++sector) {
@@ -112,12 +114,13 @@ TEST(Rough, SamplesWhatItEvaluates)
             }
         }
         const ChiSquare test = chi_square_two(drawn, evaluated, variance);
-        EXPECT_GT(test.p_value, level) << c.name << " alpha " << c.material.alpha << " cosine " << c.cosine << ": " << test.text;
+        EXPECT_GT(test.p_value, level) << c.name << " alpha " << c.material.alpha << " cosine " << c.cosine << ": "
+                                       << test.text;
     }
 }
 
-// Narrow lobes: within a cell the estimates are too unevenly spread for chi-square's normal errors, but the share of each
-// hemisphere can be held against their integral. Standard error below 0.015 of the whole.
+// Narrow lobes: within a cell the estimates are too unevenly spread for chi-square's normal errors, but the share of
+// each hemisphere can be held against their integral. Standard error below 0.015 of the whole.
 TEST(Rough, NarrowLobesShareTheHemispheresAsTheyEvaluate)
 {
     Sampler sampler(8, 0, 0, 0);
@@ -132,7 +135,8 @@ TEST(Rough, NarrowLobesShareTheHemispheresAsTheyEvaluate)
             evaluated.add(wi.z > 0 ? 4 * pi * eval_bsdf(material, wo, wi, sampler).x : 0);
         }
         const double error = std::hypot(drawn.standard_error(), evaluated.standard_error());
-        EXPECT_LT(std::abs(drawn.mean() - evaluated.mean()), 4 * error) << drawn.mean() << " against " << evaluated.mean();
+        EXPECT_LT(std::abs(drawn.mean() - evaluated.mean()), 4 * error)
+            << drawn.mean() << " against " << evaluated.mean();
         EXPECT_LT(error, 0.015);
     }
 }
@@ -206,7 +210,8 @@ TEST(Smooth, ReflectsByFresnelAndRefractsBySnell)
         }
     }
     // Fresnel's formulas written with n cos_t = sqrt(n^2 - sin^2).
-    const double root = std::sqrt(2.25 - 0.64), rs = (0.6 - root) / (0.6 + root), rp = (2.25 * 0.6 - root) / (2.25 * 0.6 + root);
+    const double root = std::sqrt(2.25 - 0.64), rs = (0.6 - root) / (0.6 + root),
+                 rp = (2.25 * 0.6 - root) / (2.25 * 0.6 + root);
     EXPECT_LT(std::abs(reflected.z(0.5 * (rs * rs + rp * rp))), 4);
 }
 

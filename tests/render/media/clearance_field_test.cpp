@@ -45,8 +45,11 @@ double distance(const Mesh& mesh, const V3d& place)
     for (const auto& t : mesh.triangles) {
         const Wide a(mesh.positions[t[0]]), b(mesh.positions[t[1]]), c(mesh.positions[t[2]]), n = (b - a).cross(c - a);
         const long double nn = n.dot(n), v = (p - a).cross(c - a).dot(n), w = (b - a).cross(p - a).dot(n);
-        if (nn > 0 && v >= 0 && w >= 0 && v + w <= nn) least = std::min(least, std::abs((p - a).dot(n)) / std::sqrt(nn));
-        else least = std::min({least, distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
+        if (nn > 0 && v >= 0 && w >= 0 && v + w <= nn)
+            least = std::min(least, std::abs((p - a).dot(n)) / std::sqrt(nn));
+        else
+            least = std::min(
+                {least, distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
     }
     return static_cast<double>(least);
 }
@@ -58,9 +61,11 @@ V3d random_direction(std::mt19937_64& random)
     return V3d(x, y, z).normalized();
 }
 
-/// Compares with true distances at places in a box, most of them from 1e-6 to 0.3 of it away from places on triangles, their edges and corners.
-/// typical: the least share of the distance at 9 of 10 places. from: least distance, by the box, at which nowhere much is lost.
-void check(const std::vector<Mesh>& meshes, const Imath::Box3d& box, int places, int voxels = 64, double typical = 0.995, double from = 1e-6)
+/// Compares with true distances at places in a box, most of them from 1e-6 to 0.3 of it away from places on triangles,
+/// their edges and corners. typical: the least share of the distance at 9 of 10 places. from: least distance, by the
+/// box, at which nowhere much is lost.
+void check(const std::vector<Mesh>& meshes, const Imath::Box3d& box, int places, int voxels = 64,
+           double typical = 0.995, double from = 1e-6)
 {
     std::vector<TriangleView> views;
     for (const Mesh& m : meshes) views.push_back(m.view());
@@ -74,8 +79,11 @@ void check(const std::vector<Mesh>& meshes, const Imath::Box3d& box, int places,
         if (random() % 4 != 0) {
             const Mesh& mesh = meshes[random() % meshes.size()];
             const auto& t = mesh.triangles[random() % mesh.triangles.size()];
-            const double u = std::min(1.0, 1.3 * std::sqrt(uniform(random))), v = std::clamp(1.6 * uniform(random) - 0.3, 0.0, 1.0) * u;
-            p = V3d(mesh.positions[t[0]]) * (1 - u) + V3d(mesh.positions[t[1]]) * (u - v) + V3d(mesh.positions[t[2]]) * v + random_direction(random) * (longest * std::pow(10, -6 + 5.5 * uniform(random)));
+            const double u = std::min(1.0, 1.3 * std::sqrt(uniform(random))),
+                         v = std::clamp(1.6 * uniform(random) - 0.3, 0.0, 1.0) * u;
+            p = V3d(mesh.positions[t[0]]) * (1 - u) + V3d(mesh.positions[t[1]]) * (u - v) +
+                V3d(mesh.positions[t[2]]) * v +
+                random_direction(random) * (longest * std::pow(10, -6 + 5.5 * uniform(random)));
         }
         if (!box.intersects(p) || p.x == box.max.x || p.y == box.max.y || p.z == box.max.z) continue;
         double truth = INFINITY;
@@ -103,7 +111,8 @@ Mesh random_triangles(int count, double spread, double size, uint64_t seed)
     Mesh mesh;
     for (int i = 0; i < count; ++i) {
         const V3d at = V3d(normal(random), normal(random), normal(random)) * spread;
-        for (int k = 0; k < 3; ++k) mesh.positions.emplace_back(V3f(at + V3d(normal(random), normal(random), normal(random)) * size));
+        for (int k = 0; k < 3; ++k)
+            mesh.positions.emplace_back(V3f(at + V3d(normal(random), normal(random), normal(random)) * size));
         const auto first = static_cast<uint32_t>(3 * i);
         mesh.triangles.push_back({first, first + 1, first + 2});
     }
@@ -127,10 +136,14 @@ Mesh needles(int count)
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
         V3f* p = &mesh.positions[3 * t];
         const double width = std::pow(10, -9 * uniform(random)), at = uniform(random);
-        if (t % 8 == 0) p[2] = p[t % 16 == 0];
-        else if (t % 8 == 1) p[1] = p[2] = p[0];
-        else if (t % 8 == 2) p[2] = p[0] * 0.5f + p[1] * 0.5f;
-        else p[2] = V3f(V3d(p[0]) * at + V3d(p[1]) * (1 - at) + V3d(p[2]) * width);
+        if (t % 8 == 0)
+            p[2] = p[t % 16 == 0];
+        else if (t % 8 == 1)
+            p[1] = p[2] = p[0];
+        else if (t % 8 == 2)
+            p[2] = p[0] * 0.5f + p[1] * 0.5f;
+        else
+            p[2] = V3f(V3d(p[0]) * at + V3d(p[1]) * (1 - at) + V3d(p[2]) * width);
     }
     return mesh;
 }
@@ -161,7 +174,9 @@ TEST(ClearanceField, HoldsForMeshesThatTouchAndTrianglesOfAllSizes)
     const Imath::Box3d box(V3d(-1.1, -1.2, -1.3), V3d(1.1, 1.2, 1.3));
     check({make(cube(), V3d(0.7, 0.2, 0.1)), make(icosphere(2), V3d(0.1), V3d(0.5))}, box, 5000);
     check({make(cube(), V3d(0.5), V3d(-0.5, 0, 0)), make(cube(), V3d(0.5), V3d(0.5, 0.25, 0))}, box, 10000);
-    check({make(ground(1, 0)), make(icosphere(3), V3d(1e-5), V3d(0.1, 0.2, 1e-5)), make(icosphere(3), V3d(1e-3), V3d(-0.3, 0.2, 0))}, box, 2000);
+    check({make(ground(1, 0)), make(icosphere(3), V3d(1e-5), V3d(0.1, 0.2, 1e-5)),
+           make(icosphere(3), V3d(1e-3), V3d(-0.3, 0.2, 0))},
+          box, 2000);
     check({join(make(ground(1, 0)), random_triangles(300, 1e-4, 1e-5, 8))}, box, 4000);
 }
 

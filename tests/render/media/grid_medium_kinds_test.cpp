@@ -13,7 +13,8 @@ using Ray = TestRay;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int edge = 40;
 
-/// A scene scaled by 2^k gives the same walks, bit for bit; one scaled by 1e-6 or 1e6, the same numbers but for rounding.
+/// A scene scaled by 2^k gives the same walks, bit for bit; one scaled by 1e-6 or 1e6, the same numbers but for
+/// rounding.
 TEST(GridMediumKinds, Scaling)
 {
     const auto density = [](int i, int j, int k) { return ((i / 4 + j / 3 + k / 5) % 3) * 0.5; };
@@ -32,7 +33,8 @@ TEST(GridMediumKinds, Scaling)
             Sampler sampler(7, i, 0, 0);
             SpectralState state;
             const double length = space.length(scale);
-            const V3d o = V3d(-2, 0.1 * sampler.next(), 0.2) * length, d = V3d(1, sampler.next() - 0.5, sampler.next() - 0.5).normalized();
+            const V3d o = V3d(-2, 0.1 * sampler.next(), 0.2) * length,
+                      d = V3d(1, sampler.next() - 0.5, sampler.next() - 0.5).normalized();
             const MediumEvent event = medium.event(o, d, 0, infinity, state, sampler);
             result.push_back(event.t / length);
             result.push_back(double{medium.transmittance(o, d, 0, infinity, sampler).x});
@@ -51,8 +53,8 @@ TEST(GridMediumKinds, Scaling)
     }
 }
 
-/// A constant chromatic medium: spectral MIS gives 1 - exp(-tau) and exp(-tau) in every channel; with absorption over many
-/// events the albedo of a walk along a line.
+/// A constant chromatic medium: spectral MIS gives 1 - exp(-tau) and exp(-tau) in every channel; with absorption over
+/// many events the albedo of a walk along a line.
 TEST(GridMediumKinds, ChromaticClosedForms)
 {
     const double h = 0.05;
@@ -61,10 +63,13 @@ TEST(GridMediumKinds, ChromaticClosedForms)
         Color scale;
         bool uneven;
     };
-    for (const Case& c : {Case{{0.5f, 1.0f, 2.0f}, false}, Case{{0.0f, 1.0f, 3.0f}, false}, Case{{0.5f, 1.0f, 2.0f}, true}, Case{{300, 700, 900}, true}}) {
+    for (const Case& c : {Case{{0.5f, 1.0f, 2.0f}, false}, Case{{0.0f, 1.0f, 3.0f}, false},
+                          Case{{0.5f, 1.0f, 2.0f}, true}, Case{{300, 700, 900}, true}}) {
         GridMediumOptions options;
         options.scale = c.scale;
-        const GridMedium medium = make_medium(make_grid(edge, h, V3d(-1), [&](int i, int j, int k) { return c.uneven ? ((i + j + k) % 3) * 0.5 : 1.0; }), options);
+        const GridMedium medium = make_medium(
+            make_grid(edge, h, V3d(-1), [&](int i, int j, int k) { return c.uneven ? ((i + j + k) % 3) * 0.5 : 1.0; }),
+            options);
         ASSERT_FALSE(medium.is_achromatic());
         const double length = c.scale.z > 100 ? 0.008 : 0.8;
         const Ray ray{{-0.703, -0.3, -0.2}, V3d(1, 0.4, 0.3).normalized(), 0, length};
@@ -85,11 +90,14 @@ TEST(GridMediumKinds, ChromaticClosedForms)
         }
         // sigma_t of a channel is its scale times one field: take the field from the largest, which is never 0.
         double depth_of_one = 0;
-        for (int i = 0; i < 200000; ++i) depth_of_one += double{medium.sigma_t(ray.o + ray.d * (length * (i + 0.5) / 200000)).z} / double{c.scale.z} * length / 200000;
+        for (int i = 0; i < 200000; ++i)
+            depth_of_one += double{medium.sigma_t(ray.o + ray.d * (length * (i + 0.5) / 200000)).z} /
+                            double{c.scale.z} * length / 200000;
         for (int k = 0; k < 3; ++k) {
             const size_t at = static_cast<size_t>(k);
             const double truth = std::exp(-depth_of_one * double{c.scale[k]});
-            SCOPED_TRACE(testing::Message() << "channel " << k << " of scale " << c.scale << (c.uneven ? ", uneven" : ""));
+            SCOPED_TRACE(testing::Message()
+                         << "channel " << k << " of scale " << c.scale << (c.uneven ? ", uneven" : ""));
             EXPECT_LT(std::abs(scattered[at].mean() - (1 - truth)), 4 * scattered[at].standard_error() + 1e-6);
             EXPECT_LT(std::abs(passed[at].mean() - truth), 4 * passed[at].standard_error() + 1e-6);
             EXPECT_LT(std::abs(transmitted[at].mean() - truth), 4 * transmitted[at].standard_error() + 1e-6);
@@ -97,13 +105,15 @@ TEST(GridMediumKinds, ChromaticClosedForms)
     }
 }
 
-/// A path of up to n events straight on, counted by the albedo: the sum over all orders is exp(-(1 - a) tau) escaped light per channel.
+/// A path of up to n events straight on, counted by the albedo: the sum over all orders is exp(-(1 - a) tau) escaped
+/// light per channel.
 TEST(GridMediumKinds, ChromaticPathsWithAlbedo)
 {
     GridMediumOptions options;
     options.scale = Color(1, 2, 4);
     options.albedo = Color(0.9f, 0.7f, 0.5f);
-    const GridMedium medium = make_medium(make_grid(edge, 0.05, V3d(-1), [](int i, int j, int k) { return 0.3 + ((i + 2 * j + k) % 5) * 0.3; }), options);
+    const GridMedium medium = make_medium(
+        make_grid(edge, 0.05, V3d(-1), [](int i, int j, int k) { return 0.3 + ((i + 2 * j + k) % 5) * 0.3; }), options);
     const Ray ray{{-0.8, -0.3, -0.4}, V3d(1, 0.3, 0.4).normalized(), 0, 1};
     double depth = 0;
     for (int i = 0; i < 200000; ++i) depth += double{medium.sigma_t(ray.o + ray.d * ((i + 0.5) / 200000)).x} / 200000;
@@ -123,7 +133,10 @@ TEST(GridMediumKinds, ChromaticPathsWithAlbedo)
         for (int k = 0; k < 3; ++k) escaped[static_cast<size_t>(k)].add(double{kept[k]} * double{state.weight()[k]});
     }
     for (int k = 0; k < 3; ++k)
-        EXPECT_LT(std::abs(escaped[static_cast<size_t>(k)].z(std::exp(-(1 - double{options.albedo[k]}) * double{options.scale[k]} * depth))), 4) << "channel " << k;
+        EXPECT_LT(std::abs(escaped[static_cast<size_t>(k)].z(
+                      std::exp(-(1 - double{options.albedo[k]}) * double{options.scale[k]} * depth))),
+                  4)
+            << "channel " << k;
 }
 
 /// A grid of vectors as density is the same as three channels.
@@ -134,7 +147,9 @@ TEST(GridMediumKinds, VectorsOfDensity)
     auto accessor = grid->getAccessor();
     for (int i = 0; i < 20; ++i)
         for (int j = 0; j < 20; ++j)
-            for (int k = 0; k < 20; ++k) accessor.setValue(Coord(i, j, k), openvdb::Vec3s(0.02f * static_cast<float>(i), 0.01f * static_cast<float>(j), 0.1f));
+            for (int k = 0; k < 20; ++k)
+                accessor.setValue(Coord(i, j, k),
+                                  openvdb::Vec3s(0.02f * static_cast<float>(i), 0.01f * static_cast<float>(j), 0.1f));
     const GridMedium medium = make_medium(grid);
     EXPECT_FALSE(medium.is_achromatic());
     const V3d a(3, 2.5, 4), b(17, 15, 11);
@@ -192,7 +207,8 @@ TEST(GridMediumKinds, AlbedoAndAsymmetryGrids)
     auto accessor = albedo->getAccessor();
     for (int i = 0; i < 5; ++i)
         for (int j = 0; j < 5; ++j)
-            for (int k = 0; k < 5; ++k) accessor.setValue(Coord(i, j, k), openvdb::Vec3s(0.2f * static_cast<float>(i), 0.5f, 0.9f));
+            for (int k = 0; k < 5; ++k)
+                accessor.setValue(Coord(i, j, k), openvdb::Vec3s(0.2f * static_cast<float>(i), 0.5f, 0.9f));
     grids.albedo = albedo;
     grids.g = make_grid(20, 0.1, V3d(0), [](int, int j, int) { return 0.04 * j - 0.5; });
     const GridMedium medium = make_grid_medium(grids, {}, {}, {});
@@ -205,7 +221,9 @@ TEST(GridMediumKinds, AlbedoAndAsymmetryGrids)
     Sampler sampler(1, 0, 0, 0);
     SpectralState state;
     const MediumEvent event = medium.event({1, 0.55, 1}, {0, 0, 1}, 0, infinity, state, sampler);
-    if (event.scattered) { EXPECT_NEAR(event.phase.mean_cosine(), 0.04 * 5.5 - 0.5, 1e-6); }
+    if (event.scattered) {
+        EXPECT_NEAR(event.phase.mean_cosine(), 0.04 * 5.5 - 0.5, 1e-6);
+    }
 }
 
 /// A rotated, sheared, mirrored and shifted grid: places are where its transform puts them.
@@ -224,9 +242,11 @@ TEST(GridMediumKinds, AffineTransforms)
     const openvdb::Vec3d end = grid->indexToWorld(openvdb::Vec3d(15.1, 9.2, 3.3));
     const V3d a = space.point(V3d(world.x(), world.y(), world.z())), b = space.point(V3d(end.x(), end.y(), end.z()));
     const double length = (b - a).length();
-    expect_depth(medium, {a, (b - a) / length, 0, length}, 4 * 0.5 * (0.073 + 0.092 + 0.357 + 0.151 + 0.184 + 0.099) * length, 40000);
+    expect_depth(medium, {a, (b - a) / length, 0, length},
+                 4 * 0.5 * (0.073 + 0.092 + 0.357 + 0.151 + 0.184 + 0.099) * length, 40000);
     for (int corner = 0; corner < 8; ++corner) {
-        const openvdb::Vec3d p = grid->indexToWorld(openvdb::Vec3d(corner & 1 ? 19 : 1, corner & 2 ? 19 : 1, corner & 4 ? 19 : 1));
+        const openvdb::Vec3d p =
+            grid->indexToWorld(openvdb::Vec3d(corner & 1 ? 19 : 1, corner & 2 ? 19 : 1, corner & 4 ? 19 : 1));
         EXPECT_TRUE(medium.bounds().intersects(space.point(V3d(p.x(), p.y(), p.z()))));
     }
 }

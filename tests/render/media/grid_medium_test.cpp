@@ -13,7 +13,6 @@ using Ray = TestRay;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int edge = 40;
 
-
 /// A ramp along x; the exact integral of a linear density along any segment is its mean times the length.
 TEST(GridMedium, LinearRamp)
 {
@@ -39,7 +38,8 @@ TEST(GridMedium, Sinusoidal)
     for (int i = 0; i < edge; ++i) depth += h * double{static_cast<float>(value(i))};
     // With the ramps from and to 0 outside of the first and the last voxel.
     expect_depth(medium, {{-3, 0.1, 0.2}, {1, 0, 0}}, depth, 100000);
-    // And the continuous field itself, sampled finely enough: its interpolant is (kh)^2 / 12 lower in amplitude, below the standard error.
+    // And the continuous field itself, sampled finely enough: its interpolant is (kh)^2 / 12 lower in amplitude, below
+    // the standard error.
     const int fine = 200;
     const double hf = 1.0 / fine;
     auto grid = make_grid(2, hf, V3d(0), [](int, int, int) { return 0; });
@@ -47,7 +47,8 @@ TEST(GridMedium, Sinusoidal)
     auto accessor = grid->getAccessor();
     for (int i = 0; i <= fine; ++i)
         for (int j = 0; j < 3; ++j)
-            for (int l = 0; l < 3; ++l) accessor.setValue(Coord(i, j, l), static_cast<float>(2 + 2 * std::sin(k * i * hf)));
+            for (int l = 0; l < 3; ++l)
+                accessor.setValue(Coord(i, j, l), static_cast<float>(2 + 2 * std::sin(k * i * hf)));
     expect_depth(make_medium(grid), {{0, hf, hf}, {1, 0, 0}, 0, 1}, 2 - 2 / k * (std::cos(k) - 1), 100000);
 }
 
@@ -58,8 +59,10 @@ TEST(GridMedium, CheckeredNearest)
     GridMediumOptions options;
     options.nearest = true;
     options.scale = Color(1.5f);
-    const GridMedium medium = make_medium(make_grid(edge, h, V3d(-1), [](int i, int j, int k) { return (i + j + k) % 2 ? 2.0 : 0.0; }), options);
-    // Along an axis half of the voxels; along the diagonal of x and y, through the middles of edges' faces: always the same parity.
+    const GridMedium medium = make_medium(
+        make_grid(edge, h, V3d(-1), [](int i, int j, int k) { return (i + j + k) % 2 ? 2.0 : 0.0; }), options);
+    // Along an axis half of the voxels; along the diagonal of x and y, through the middles of edges' faces: always the
+    // same parity.
     expect_depth(medium, {{-3, 0.012, 0.013}, {1, 0, 0}}, 1.5 * 2 * h * edge / 2, 40000);
     const V3d o(-1.0 - 2 * h, -1.0 - 2 * h, 0.01);
     const double diagonal = edge * h * std::sqrt(2.0);
@@ -78,14 +81,19 @@ TEST(GridMedium, AnyRayThroughASparseGrid)
         GridMediumOptions options;
         options.nearest = nearest;
         options.scale = Color(3);
-        const GridMedium medium = make_medium(make_grid(edge, h, V3d(-1), [](int i, int j, int k) {
-            const int cell = (i / 7) * 31 + (j / 5) * 17 + (k / 6) * 7;
-            return cell % 3 == 0 ? 0.2 * ((i * 3 + j * 5 + k * 7) % 11) : 0.0;
-        }), options);
+        const GridMedium medium =
+            make_medium(make_grid(edge, h, V3d(-1),
+                                  [](int i, int j, int k) {
+                                      const int cell = (i / 7) * 31 + (j / 5) * 17 + (k / 6) * 7;
+                                      return cell % 3 == 0 ? 0.2 * ((i * 3 + j * 5 + k * 7) % 11) : 0.0;
+                                  }),
+                        options);
         std::vector<Ray> rays;
         for (uint32_t i = 0; i < 6; ++i) {
             Sampler sampler(3, i, 0, 0);
-            const auto draw = [&] { return V3d(2 * sampler.next() - 1, 2 * sampler.next() - 1, 2 * sampler.next() - 1); };
+            const auto draw = [&] {
+                return V3d(2 * sampler.next() - 1, 2 * sampler.next() - 1, 2 * sampler.next() - 1);
+            };
             rays.push_back({draw(), draw().normalized(), 0.1 * sampler.next(), 0.4 + sampler.next()});
         }
         const double face = -1 + 8 * h; // a brick's, as exactly as doubles have it
@@ -97,8 +105,10 @@ TEST(GridMedium, AnyRayThroughASparseGrid)
         rays.push_back({{face, -0.2, 0.3}, {-1e-300, 1, 1e-320}, 0, 4});
         for (const Ray& ray : rays) {
             // Where a voxel's face holds the whole ray, a nearest voxel is not defined.
-            if (nearest && (ray.d.x == 0 || ray.d.y == 0 || ray.d.z == 0 || std::abs(ray.d.x) == std::abs(ray.d.y))) continue;
-            SCOPED_TRACE(testing::Message() << "ray from " << ray.o << " along " << ray.d << (nearest ? ", nearest" : ""));
+            if (nearest && (ray.d.x == 0 || ray.d.y == 0 || ray.d.z == 0 || std::abs(ray.d.x) == std::abs(ray.d.y)))
+                continue;
+            SCOPED_TRACE(testing::Message()
+                         << "ray from " << ray.o << " along " << ray.d << (nearest ? ", nearest" : ""));
             expect_depth(medium, ray, optical_depth(medium, ray, ray.t0, std::min(ray.t1, 5.0), 200000), 10000, 5);
         }
     }
@@ -111,7 +121,9 @@ TEST(GridMedium, FreeFlights)
     for (const float scale : {1.0f, 30.0f, 1000.0f}) { // delta tracking, both, and closed form
         GridMediumOptions options;
         options.scale = Color(scale);
-        const GridMedium medium = make_medium(make_grid(edge, h, V3d(-1), [](int i, int j, int k) { return ((i / 4 + j / 3 + k / 5) % 3) * 0.5; }), options);
+        const GridMedium medium = make_medium(
+            make_grid(edge, h, V3d(-1), [](int i, int j, int k) { return ((i / 4 + j / 3 + k / 5) % 3) * 0.5; }),
+            options);
         const Ray ray{{-1.2, -0.9, -0.8}, V3d(1.0, 0.7, 0.8).normalized(), 0, 4};
         constexpr int fine = 400000;
         std::vector<double> passed(fine + 1, 0); // transmittance at steps of the ray
@@ -148,7 +160,8 @@ TEST(GridMedium, OneDenseVoxel)
 {
     const double h = 0.05;
     const auto make = [&](double dense) {
-        return make_medium(make_grid(edge, h, V3d(-1), [&](int i, int j, int k) { return i == 20 && j == 20 && k == 20 ? dense : 1.0; }));
+        return make_medium(make_grid(edge, h, V3d(-1),
+                                     [&](int i, int j, int k) { return i == 20 && j == 20 && k == 20 ? dense : 1.0; }));
     };
     const GridMedium medium = make(1e6);
     const V3d d = V3d(1, 0.02, 0.01).normalized();
@@ -166,12 +179,13 @@ TEST(GridMedium, OneDenseVoxel)
     EXPECT_LT(hit.t, 0.95);
 }
 
-/// Along a cell's diagonal towards one dense voxel the density is D s^3, so that exp(-D sqrt(3) s^4 / 4) of the flights is uniform
-/// in 0..1: mean 1/2 and mean square 1/3 within 4 standard errors.
+/// Along a cell's diagonal towards one dense voxel the density is D s^3, so that exp(-D sqrt(3) s^4 / 4) of the flights
+/// is uniform in 0..1: mean 1/2 and mean square 1/3 within 4 standard errors.
 TEST(GridMedium, FlightsUpACubicRamp)
 {
     const double dense = 200;
-    const GridMedium medium = make_medium(make_grid(24, 1, V3d(0), [&](int i, int j, int k) { return i == 12 && j == 12 && k == 12 ? dense : 0.0; }));
+    const GridMedium medium = make_medium(
+        make_grid(24, 1, V3d(0), [&](int i, int j, int k) { return i == 12 && j == 12 && k == 12 ? dense : 0.0; }));
     Estimate first, second;
     for (uint32_t i = 0; i < 40000; ++i) {
         Sampler sampler(9, i, 0, 0);
@@ -195,22 +209,31 @@ TEST(GridMedium, ExtremeDensities)
         options.scale = Color(static_cast<float>(sigma));
         const double s = double{options.scale.x};
         for (const bool even : {true, false}) {
-            const GridMedium medium = make_medium(make_grid(24, h, V3d(0), [&](int i, int j, int k) { return even ? 1.0 : ((i + j + k) % 4) / 3.0; }), options);
+            const GridMedium medium = make_medium(
+                make_grid(24, h, V3d(0), [&](int i, int j, int k) { return even ? 1.0 : ((i + j + k) % 4) / 3.0; }),
+                options);
             Estimate chance;
             for (uint32_t i = 0; i < 4000; ++i) {
                 Sampler sampler(2, i, 0, 0);
                 SpectralState state;
                 // From well inside, and from outside through the ramp of the first voxels.
-                const MediumEvent inside = medium.event({0.5, 0.5, 0.5}, V3d(1, 0.3, 0.2).normalized(), 0, infinity, state, sampler);
-                const MediumEvent outside = medium.event({-1, 0.5, 0.51}, V3d(1, 0.03, 0.02).normalized(), 0, infinity, state, sampler);
+                const MediumEvent inside =
+                    medium.event({0.5, 0.5, 0.5}, V3d(1, 0.3, 0.2).normalized(), 0, infinity, state, sampler);
+                const MediumEvent outside =
+                    medium.event({-1, 0.5, 0.51}, V3d(1, 0.03, 0.02).normalized(), 0, infinity, state, sampler);
                 chance.add(inside.scattered);
                 EXPECT_EQ(outside.scattered, sigma > 1 ? true : outside.scattered);
-                const double t = double{medium.transmittance({-1, 0.5, 0.51}, V3d(1, 0.03, 0.02).normalized(), 0, infinity, sampler).x};
+                const double t = double{
+                    medium.transmittance({-1, 0.5, 0.51}, V3d(1, 0.03, 0.02).normalized(), 0, infinity, sampler).x};
                 ASSERT_TRUE(t >= 0 && t <= 1);
-                if (sigma > 1) { ASSERT_LT(t, 0.11); }
+                if (sigma > 1) {
+                    ASSERT_LT(t, 0.11);
+                }
             }
-            if (sigma > 1) EXPECT_EQ(chance.mean(), 1);
-            else EXPECT_LE(chance.mean(), 4e-3); // chance below 1e-6 each
+            if (sigma > 1)
+                EXPECT_EQ(chance.mean(), 1);
+            else
+                EXPECT_LE(chance.mean(), 4e-3); // chance below 1e-6 each
             if (even && sigma > 1) {
                 // Mean free path in the constant part: 4 standard errors of the mean of exponentials.
                 Estimate flight;
@@ -243,11 +266,13 @@ TEST(GridMedium, ThinMediaScatterAsRarelyAsTheyShould)
 
 TEST(GridMedium, NothingInAnEmptyGrid)
 {
-    for (const GridMedium& medium : {make_medium(FloatGrid::create(0)), make_medium(make_grid(10, 1, V3d(0), [](int, int, int) { return 0.0; })), [] {
-             GridMediumOptions none;
-             none.scale = Color(0);
-             return make_medium(make_grid(10, 1, V3d(0), [](int, int, int) { return 1.0; }), none);
-         }()}) {
+    for (const GridMedium& medium : {make_medium(FloatGrid::create(0)),
+                                     make_medium(make_grid(10, 1, V3d(0), [](int, int, int) { return 0.0; })), [] {
+                                         GridMediumOptions none;
+                                         none.scale = Color(0);
+                                         return make_medium(make_grid(10, 1, V3d(0), [](int, int, int) { return 1.0; }),
+                                                            none);
+                                     }()}) {
         Sampler sampler(1, 0, 0, 0);
         SpectralState state;
         EXPECT_FALSE(medium.event({-5, 5, 5}, {1, 0, 0}, 0, infinity, state, sampler).scattered);
@@ -278,7 +303,8 @@ TEST(GridMedium, RaysThatAreNone)
 TEST(GridMedium, WalksAreTheSameWhateverTheyStartFrom)
 {
     // A ray cut in two has the same transmittance, and its origin far back along the same line too.
-    const GridMedium medium = make_medium(make_grid(edge, 0.05, V3d(-1), [](int i, int j, int k) { return ((i / 4 + j / 3 + k / 5) % 3) * 0.5; }));
+    const GridMedium medium = make_medium(
+        make_grid(edge, 0.05, V3d(-1), [](int i, int j, int k) { return ((i / 4 + j / 3 + k / 5) % 3) * 0.5; }));
     const V3d d = V3d(1, 0.6, 0.4).normalized(), o(-0.9, -0.5, -0.5);
     const double depth = optical_depth(medium, {o, d}, 0.3, 1.4, 200000);
     expect_depth(medium, {o, d, 0.3, 1.4}, depth, 40000);

@@ -6,7 +6,8 @@
 
 namespace scree {
 
-openvdb::FloatGrid::Ptr make_grid(int n, double h, const V3d& shift, const std::function<double(int, int, int)>& density)
+openvdb::FloatGrid::Ptr make_grid(int n, double h, const V3d& shift,
+                                  const std::function<double(int, int, int)>& density)
 {
     openvdb::initialize();
     auto grid = openvdb::FloatGrid::create(0);
@@ -16,7 +17,8 @@ openvdb::FloatGrid::Ptr make_grid(int n, double h, const V3d& shift, const std::
     auto accessor = grid->getAccessor();
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j)
-            for (int k = 0; k < n; ++k) accessor.setValue(openvdb::Coord(i, j, k), static_cast<float>(density(i, j, k)));
+            for (int k = 0; k < n; ++k)
+                accessor.setValue(openvdb::Coord(i, j, k), static_cast<float>(density(i, j, k)));
     return grid;
 }
 
@@ -51,8 +53,10 @@ void expect_depth(const GridMedium& medium, const TestRay& ray, double depth, ui
         ratio.add(double{medium.transmittance(ray.o, ray.d, ray.t0, ray.t1, sampler).x});
     }
     // Where the estimate has no scatter at all, only the rounding of floats is left.
-    EXPECT_LT(std::abs(ratio.mean() - truth), 4 * ratio.standard_error() + 2e-7) << "transmittance " << ratio.mean() << " of " << truth;
-    EXPECT_LT(std::abs(passed / n - truth), 4 * std::sqrt(truth * (1 - truth) / n) + 1e-12) << "passed " << passed / n << " of " << truth;
+    EXPECT_LT(std::abs(ratio.mean() - truth), 4 * ratio.standard_error() + 2e-7)
+        << "transmittance " << ratio.mean() << " of " << truth;
+    EXPECT_LT(std::abs(passed / n - truth), 4 * std::sqrt(truth * (1 - truth) / n) + 1e-12)
+        << "passed " << passed / n << " of " << truth;
 }
 
 } // namespace scree

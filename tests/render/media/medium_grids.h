@@ -9,9 +9,11 @@
 namespace scree {
 
 /// A grid of n^3 voxels, voxel (i, j, k) at h (i, j, k) + shift.
-openvdb::FloatGrid::Ptr make_grid(int n, double h, const V3d& shift, const std::function<double(int, int, int)>& density);
+openvdb::FloatGrid::Ptr make_grid(int n, double h, const V3d& shift,
+                                  const std::function<double(int, int, int)>& density);
 
-GridMedium make_medium(openvdb::GridBase::ConstPtr density, const GridMediumOptions& options = {}, const RenderSpace& space = {});
+GridMedium make_medium(openvdb::GridBase::ConstPtr density, const GridMediumOptions& options = {},
+                       const RenderSpace& space = {});
 
 struct TestRay {
     V3d o, d;
@@ -21,7 +23,8 @@ struct TestRay {
 /// The optical depth by the midpoint rule over what sigma_t() tells, in n pieces.
 double optical_depth(const GridMedium& medium, const TestRay& ray, double t0, double t1, int n);
 
-/// Estimates by both walks agree with a known optical depth within 4 standard errors, that of the events' frequency being known.
+/// Estimates by both walks agree with a known optical depth within 4 standard errors, that of the events' frequency
+/// being known.
 void expect_depth(const GridMedium& medium, const TestRay& ray, double depth, uint32_t n, uint64_t seed = 1);
 
 } // namespace scree

@@ -1,7 +1,7 @@
 // Means over cubes, of which shells take the albedo.
 
-#include "render/media/medium_pyramid.h"
 #include "base/sampler.h"
+#include "render/media/medium_pyramid.h"
 #include "tests/render/media/medium_grids.h"
 
 #include <gtest/gtest.h>
@@ -30,16 +30,22 @@ TEST(MediumPyramid, KeepsWhatLittleIsLost)
     }
 }
 
-/// What halve_until_same() leaves out is what could not be the same, whatever the medium: it finds what asking of each ball in turn does.
+/// What halve_until_same() leaves out is what could not be the same, whatever the medium: it finds what asking of each
+/// ball in turn does.
 TEST(MediumPyramid, FindsWhatEachBallInTurnWould)
 {
     constexpr int n = 48;
-    const auto noise = [](int i, int j, int k) { return static_cast<double>(Sampler::philox({static_cast<uint32_t>(i), static_cast<uint32_t>(j), static_cast<uint32_t>(k), 0}, {1, 2})[0]) * 0x1p-32; };
+    const auto noise = [](int i, int j, int k) {
+        return static_cast<double>(Sampler::philox(
+                   {static_cast<uint32_t>(i), static_cast<uint32_t>(j), static_cast<uint32_t>(k), 0}, {1, 2})[0]) *
+               0x1p-32;
+    };
     const std::vector<std::pair<const char*, std::function<double(int, int, int)>>> media{
         {"a ramp", [](int i, int, int) { return 1 + 0.02 * i; }},
         {"a face within", [](int i, int j, int) { return i + j < n ? 1.0 : 0.3; }},
         {"an edge that is soft", [](int i, int, int) { return std::clamp(0.1 * (i - 8), 0.0, 1.0); }},
-        {"waves", [](int i, int j, int k) { return 1 + 0.5 * std::sin(0.3 * i) * std::sin(0.2 * j) * std::sin(0.1 * k); }},
+        {"waves",
+         [](int i, int j, int k) { return 1 + 0.5 * std::sin(0.3 * i) * std::sin(0.2 * j) * std::sin(0.1 * k); }},
         {"a board", [](int i, int j, int k) { return (i / 8 + j / 8 + k / 8) % 2 ? 1.9 : 0.1; }},
         {"noise", [noise](int i, int j, int k) { return 1 + 0.5 * noise(i, j, k); }},
         {"little noise", [noise](int i, int j, int k) { return 1 + 0.05 * noise(i, j, k); }},
@@ -54,7 +60,8 @@ TEST(MediumPyramid, FindsWhatEachBallInTurnWould)
             const MediumPyramid pyramid(medium, {V3d(-0.99), V3d(0.99)}, 0.05, 0.5, {});
             Sampler sampler(3, 0, 0, 0);
             for (int i = 0; i < 4000; ++i) {
-                const V3d place(1.9 * (sampler.next() - 0.5), 1.9 * (sampler.next() - 0.5), 1.9 * (sampler.next() - 0.5));
+                const V3d place(1.9 * (sampler.next() - 0.5), 1.9 * (sampler.next() - 0.5),
+                                1.9 * (sampler.next() - 0.5));
                 double clear = 0.99;
                 for (int k = 0; k < 3; ++k) clear = std::min(clear, 0.99 - std::abs(place[k]));
                 clear *= std::max(0.01, sampler.next());

@@ -15,7 +15,8 @@ using openvdb::Coord;
 using openvdb::FloatGrid;
 using testing::HasSubstr;
 
-template <class GridType = FloatGrid> typename GridType::Ptr block(const std::string& name, const typename GridType::ValueType& value)
+template <class GridType = FloatGrid>
+typename GridType::Ptr block(const std::string& name, const typename GridType::ValueType& value)
 {
     openvdb::initialize();
     auto grid = GridType::create(openvdb::zeroVal<typename GridType::ValueType>());
@@ -51,7 +52,9 @@ protected:
 
 TEST_F(VdbMedium, ReadsWhatWasWritten)
 {
-    const auto path = write({block("density", 2.0f), block<openvdb::Vec3SGrid>("colour", openvdb::Vec3s(0.9f, 0.8f, 0.7f)), block("lobe", 0.6f)});
+    const auto path =
+        write({block("density", 2.0f), block<openvdb::Vec3SGrid>("colour", openvdb::Vec3s(0.9f, 0.8f, 0.7f)),
+               block("lobe", 0.6f)});
     VdbMediumOptions options = with("colour", "lobe");
     options.medium.scale = Color(3);
     RenderSpace space;
@@ -115,7 +118,8 @@ TEST_F(VdbMedium, RefusesWhatNoMediumHas)
     auto sphere = openvdb::tools::createLevelSetSphere<FloatGrid>(2, openvdb::Vec3f(0), 0.5f);
     sphere->setName("density");
     auto frustum = block("density", 1.0f);
-    frustum->setTransform(openvdb::math::Transform::createFrustumTransform(openvdb::BBoxd(openvdb::Vec3d(0), openvdb::Vec3d(9)), 0.5, 4));
+    frustum->setTransform(
+        openvdb::math::Transform::createFrustumTransform(openvdb::BBoxd(openvdb::Vec3d(0), openvdb::Vec3d(9)), 0.5, 4));
     auto whole = openvdb::Int32Grid::create(0);
     whole->setName("density");
     std::vector<Case> cases{
@@ -130,7 +134,10 @@ TEST_F(VdbMedium, RefusesWhatNoMediumHas)
         {{density, block("a", -0.1f)}, with("a"), "albedo of -0.1", "0..1"},
         {{density, block("lobe", 1.0f)}, with("", "lobe"), "g of 1 at", "between -1 and 1"},
         {{density, far_lobe}, with("", "lobe"), "g of 1 as background", "between -1 and 1"},
-        {{density, block<openvdb::Vec3SGrid>("lobe", openvdb::Vec3s(0.1f))}, with("", "lobe"), "g as a grid of vec3s", "float or double"},
+        {{density, block<openvdb::Vec3SGrid>("lobe", openvdb::Vec3s(0.1f))},
+         with("", "lobe"),
+         "g as a grid of vec3s",
+         "float or double"},
     };
     VdbMediumOptions options;
     options.medium.scale = Color(1, -1, 1);
@@ -155,7 +162,8 @@ TEST_F(VdbMedium, RefusesWhatNoMediumHas)
 
 TEST_F(VdbMedium, RefusesOtherFiles)
 {
-    const auto text = test::input_error_of([&] { read_vdb_medium(folder_.write("a.vdb", "no grids here"), {}, {}, {}); });
+    const auto text =
+        test::input_error_of([&] { read_vdb_medium(folder_.write("a.vdb", "no grids here"), {}, {}, {}); });
     ASSERT_TRUE(text);
     EXPECT_THAT(text->place(), HasSubstr("a.vdb"));
     const auto missing = test::input_error_of([&] { read_vdb_medium(folder_.path("b.vdb"), {}, {}, {}); });

@@ -37,15 +37,21 @@ TEST(SceneDescription, HasDefaults)
 
 TEST(SceneDescription, ReadsCameras)
 {
-    const CameraDescription p = read(R"({"$schema": "scene.schema.json", "camera": {"kind": "perspective", "origin": [1, 2, 3], "target": [4, 5, 6],
-        "up": [0, 1, 0], "fov": 60.5, "aperture": 0.25, "focus": 12}})").camera;
+    const CameraDescription p =
+        read(
+            R"({"$schema": "scene.schema.json", "camera": {"kind": "perspective", "origin": [1, 2, 3], "target": [4, 5, 6],
+        "up": [0, 1, 0], "fov": 60.5, "aperture": 0.25, "focus": 12}})")
+            .camera;
     EXPECT_EQ(p.origin, V3d(1, 2, 3));
     EXPECT_EQ(p.target, V3d(4, 5, 6));
     EXPECT_EQ(p.up, V3d(0, 1, 0));
     EXPECT_EQ(p.fov, 60.5);
     EXPECT_EQ(p.aperture, 0.25);
     EXPECT_EQ(p.focus, 12);
-    const CameraDescription o = read(R"({"camera": {"kind": "orthographic", "origin": [1e7, 2, 3], "target": [4, 5, 6], "width": 20, "aperture": 1, "focus": 2}})").camera;
+    const CameraDescription o =
+        read(
+            R"({"camera": {"kind": "orthographic", "origin": [1e7, 2, 3], "target": [4, 5, 6], "width": 20, "aperture": 1, "focus": 2}})")
+            .camera;
     EXPECT_EQ(o.kind, CameraKind::orthographic);
     EXPECT_EQ(o.width, 20);
     EXPECT_EQ(o.origin.x, 1e7);
@@ -54,12 +60,16 @@ TEST(SceneDescription, ReadsCameras)
 
 TEST(SceneDescription, ReadsFilms)
 {
-    const FilmDescription film = read_with(R"("film": {"size": [64, 48.0], "filter": "box", "aov": ["albedo", "normal", "depth", "type", "id", "variance", "samples", "depth"]})").film;
+    const FilmDescription film =
+        read_with(
+            R"("film": {"size": [64, 48.0], "filter": "box", "aov": ["albedo", "normal", "depth", "type", "id", "variance", "samples", "depth"]})")
+            .film;
     EXPECT_EQ(film.width, 64);
     EXPECT_EQ(film.height, 48);
     EXPECT_EQ(film.filter.kind, FilterKind::box);
     EXPECT_EQ(film.filter.radius, 0.5);
-    EXPECT_EQ(film.aov, (std::vector<Aov>{Aov::albedo, Aov::normal, Aov::depth, Aov::type, Aov::id, Aov::variance, Aov::samples}));
+    EXPECT_EQ(film.aov, (std::vector<Aov>{Aov::albedo, Aov::normal, Aov::depth, Aov::type, Aov::id, Aov::variance,
+                                          Aov::samples}));
     const Filter tent = read_with(R"("film": {"filter": "tent"})").film.filter;
     EXPECT_EQ(tent.kind, FilterKind::tent);
     EXPECT_EQ(tent.radius, 1);
@@ -75,7 +85,8 @@ TEST(SceneDescription, ReadsLights)
         {"kind": "environment", "file": "sky.exr"}, {"kind": "environment", "file": "/abs/sky.exr", "scale": 2, "up": [0, 1, 0]},
         {"kind": "distant", "direction": [1, 2, -3]}, {"kind": "distant", "direction": [0, 0, -1], "irradiance": [3, 2, 1], "angle": 0},
         {"kind": "rectangle", "corner": [1, 2, 3], "edges": [[1, 0, 0], [0, 2, 0]], "radiance": 10},
-        {"kind": "sphere", "center": [3, 2, 1], "radius": 0.5}])").lights;
+        {"kind": "sphere", "center": [3, 2, 1], "radius": 0.5}])")
+                            .lights;
     ASSERT_EQ(lights.size(), 8u);
     EXPECT_EQ(lights[0].radiance, Color(1));
     EXPECT_EQ(lights[1].radiance, Color(1, 2, 3));
@@ -108,7 +119,8 @@ TEST(SceneDescription, ReadsSurfacesAndMaterials)
         {"mesh": "d.obj", "material": {"kind": "dielectric", "ior": 1.31, "roughness": 0.5, "absorption": [1, 2, 3], "tint": 0.98}},
         {"mesh": "e.obj", "material": {"kind": "conductor", "eta": [0.2, 0.9, 1.1], "k": 3.9}},
         {"mesh": "f.obj", "material": {"kind": "conductor", "eta": 0, "k": 0, "roughness": 1, "tint": [1, 0.5, 0]}},
-        {"mesh": "g.obj", "material": {"kind": "dielectric", "ior": 1, "roughness": 0.5}}])").surfaces;
+        {"mesh": "g.obj", "material": {"kind": "dielectric", "ior": 1, "roughness": 0.5}}])")
+                              .surfaces;
     ASSERT_EQ(surfaces.size(), 7u);
     EXPECT_EQ(surfaces[0].mesh, "/scenes/here/a.obj");
     EXPECT_EQ(surfaces[0].material.kind, MaterialKind::lambert);
@@ -135,7 +147,8 @@ TEST(SceneDescription, ReadsSurfacesAndMaterials)
 
 TEST(SceneDescription, ReadsGrainsFromADump)
 {
-    const SceneDescription scene = read_with(R"("grains": {"types": {)" + stone + ", " + clay +
+    const SceneDescription scene = read_with(
+        R"("grains": {"types": {)" + stone + ", " + clay +
         R"(}, "assembly": {"dump": "run/pour.*.dump.gz", "types": {"1": "stone", "2": "clay", "-7": "clay"}, "radius": {"1": 0.5, "2": 1}}, "mixture": {"kind": "explicit"}})");
     ASSERT_EQ(scene.types.size(), 2u);
     EXPECT_EQ(scene.types[0].name, "clay") << "in order of name";
@@ -147,26 +160,36 @@ TEST(SceneDescription, ReadsGrainsFromADump)
     EXPECT_EQ(scene.assembly->radius_of_type, (std::map<int32_t, double>{{1, 0.5}, {2, 1}}));
     EXPECT_FALSE(scene.assembly->radius);
     // One type needs no map.
-    const auto one = read_with(R"("grains": {"types": {)" + clay + R"(}, "assembly": {"dump": "a.dump", "radius": 0.25}})").assembly;
+    const auto one =
+        read_with(R"("grains": {"types": {)" + clay + R"(}, "assembly": {"dump": "a.dump", "radius": 0.25}})").assembly;
     EXPECT_TRUE(one->types.empty());
     EXPECT_EQ(one->radius, 0.25);
 }
 
 TEST(SceneDescription, ReadsGrainsWrittenOut)
 {
-    const auto one = read_with(R"("grains": {"types": {)" + clay + R"(}, "assembly": {"spheres": [{"center": [1, 2, 3], "radius": 0.5}, {"center": [0, 0, 0], "radius": 0}]}})").assembly;
+    const auto one =
+        read_with(
+            R"("grains": {"types": {)" + clay +
+            R"(}, "assembly": {"spheres": [{"center": [1, 2, 3], "radius": 0.5}, {"center": [0, 0, 0], "radius": 0}]}})")
+            .assembly;
     ASSERT_EQ(one->spheres.size(), 2u);
     EXPECT_EQ(one->spheres[0].center, V3d(1, 2, 3));
     EXPECT_EQ(one->spheres[0].radius, 0.5);
     EXPECT_EQ(one->spheres[0].type, "");
-    const auto two = read_with(R"("grains": {"types": {)" + clay + ", " + stone + R"(}, "assembly": {"spheres": [{"center": [1, 2, 3], "radius": 0.5, "type": "stone"}]}})").assembly;
+    const auto two =
+        read_with(R"("grains": {"types": {)" + clay + ", " + stone +
+                  R"(}, "assembly": {"spheres": [{"center": [1, 2, 3], "radius": 0.5, "type": "stone"}]}})")
+            .assembly;
     EXPECT_EQ(two->spheres[0].type, "stone");
-    EXPECT_TRUE(read_with(R"("grains": {"types": {)" + clay + R"(}, "assembly": {"spheres": []}})").assembly->spheres.empty());
+    EXPECT_TRUE(
+        read_with(R"("grains": {"types": {)" + clay + R"(}, "assembly": {"spheres": []}})").assembly->spheres.empty());
 }
 
 GrainTypeDescription read_type(const std::string& type, const std::string& before = "")
 {
-    return read_with(R"("grains": {)" + before + R"("types": {"a": )" + type + R"(}, "assembly": {"spheres": []}})").types[0];
+    return read_with(R"("grains": {)" + before + R"("types": {"a": )" + type + R"(}, "assembly": {"spheres": []}})")
+        .types[0];
 }
 
 TEST(SceneDescription, LibraryShapesBringTheirMaterial)
@@ -181,13 +204,15 @@ TEST(SceneDescription, LibraryShapesBringTheirMaterial)
     EXPECT_EQ(type.material.kind, MaterialKind::dielectric);
     EXPECT_EQ(type.material.ior, sugar.material.ior);
     EXPECT_EQ(type.material.alpha, sugar.material.alpha);
-    const GrainTypeDescription fine = read_type(R"({"shape": {"library": "brown_sugar", "triangles": 5000, "seed": 7, "parameters": {"chips": 2}}})");
+    const GrainTypeDescription fine =
+        read_type(R"({"shape": {"library": "brown_sugar", "triangles": 5000, "seed": 7, "parameters": {"chips": 2}}})");
     EXPECT_EQ(fine.library, &sugar);
     EXPECT_EQ(fine.shape.triangles, 5000u);
     EXPECT_EQ(fine.shape.seed, 7u);
     EXPECT_EQ(fine.shape.parameters, (std::map<std::string, double>{{"chips", 2}}));
     // A material beside it replaces it.
-    const GrainTypeDescription clay_sugar = read_type(R"({"shape": "brown_sugar", "material": {"kind": "lambert", "reflectance": 0.25}})");
+    const GrainTypeDescription clay_sugar =
+        read_type(R"({"shape": "brown_sugar", "material": {"kind": "lambert", "reflectance": 0.25}})");
     EXPECT_EQ(clay_sugar.library, &sugar);
     EXPECT_EQ(clay_sugar.material.kind, MaterialKind::lambert);
     EXPECT_EQ(clay_sugar.material.reflectance, Color(0.25f));
@@ -200,42 +225,57 @@ TEST(SceneDescription, UnitsConvertTheLibrarysAbsorptionOnly)
 {
     const Color per_metre = find_library_grain("brown_sugar")->material.absorption;
     ASSERT_GT(per_metre.x, 0);
-    for (const auto& [unit, metres] : std::vector<std::pair<std::string, float>>{
-             {"", 1e-3f}, {R"("unit": "mm", )", 1e-3f}, {R"("unit": "m", )", 1}, {R"("unit": "cm", )", 1e-2f}, {R"("unit": "um", )", 1e-6f}, {R"("unit": 0.5, )", 0.5f}}) {
+    for (const auto& [unit, metres] : std::vector<std::pair<std::string, float>>{{"", 1e-3f},
+                                                                                 {R"("unit": "mm", )", 1e-3f},
+                                                                                 {R"("unit": "m", )", 1},
+                                                                                 {R"("unit": "cm", )", 1e-2f},
+                                                                                 {R"("unit": "um", )", 1e-6f},
+                                                                                 {R"("unit": 0.5, )", 0.5f}}) {
         const Color found = read_type(R"({"shape": "brown_sugar"})", unit).material.absorption;
         for (int i = 0; i < 3; ++i) EXPECT_FLOAT_EQ(found[i], metres * per_metre[i]) << unit;
-        EXPECT_EQ(read_type(R"({"shape": "brown_sugar", "material": {"kind": "dielectric", "absorption": [1, 2, 3]}})", unit).material.absorption, Color(1, 2, 3));
+        EXPECT_EQ(
+            read_type(R"({"shape": "brown_sugar", "material": {"kind": "dielectric", "absorption": [1, 2, 3]}})", unit)
+                .material.absorption,
+            Color(1, 2, 3));
     }
 }
 
 TEST(SceneDescription, ReadsIntegrators)
 {
-    const SceneDescription scene = read_with(R"("medium": [], "integrator": {"kind": "ept", "accuracy": "reference", "max_depth": 7})");
+    const SceneDescription scene =
+        read_with(R"("medium": [], "integrator": {"kind": "ept", "accuracy": "reference", "max_depth": 7})");
     EXPECT_EQ(scene.integrator.kind, IntegratorKind::ept);
     EXPECT_EQ(scene.integrator.accuracy, Accuracy::reference);
     EXPECT_EQ(scene.integrator.max_depth, 7u);
     EXPECT_EQ(read_with(R"("integrator": {})").integrator.kind, IntegratorKind::automatic);
     EXPECT_EQ(read_with(R"("integrator": {"kind": "ppt", "explicit_grains": 2})").integrator.explicit_grains, 2u);
-    const IntegratorDescription switches = read_with(R"("integrator": {"grain_pixels": 0.5, "grain_flights": 2, "least_shell": 4})").integrator;
+    const IntegratorDescription switches =
+        read_with(R"("integrator": {"grain_pixels": 0.5, "grain_flights": 2, "least_shell": 4})").integrator;
     EXPECT_EQ(switches.grain_pixels, 0.5);
     EXPECT_EQ(switches.grain_flights, 2);
     EXPECT_EQ(switches.least_shell, 4);
-    EXPECT_FALSE(IntegratorDescription().grain_pixels || IntegratorDescription().grain_flights || IntegratorDescription().least_shell);
+    EXPECT_FALSE(IntegratorDescription().grain_pixels || IntegratorDescription().grain_flights ||
+                 IntegratorDescription().least_shell);
     EXPECT_FALSE(scene.integrator.shells) << "as the integrator has it";
     EXPECT_EQ(scene.integrator.stf_form, StfForm::full);
-    const IntegratorDescription stf = read_with(R"("integrator": {"kind": "stf", "shells": false, "stf_form": "diffusion"})").integrator;
+    const IntegratorDescription stf =
+        read_with(R"("integrator": {"kind": "stf", "shells": false, "stf_form": "diffusion"})").integrator;
     EXPECT_EQ(stf.kind, IntegratorKind::stf);
     EXPECT_EQ(stf.shells, std::optional(false));
     EXPECT_EQ(stf.stf_form, StfForm::diffusion);
     EXPECT_EQ(read_with(R"("integrator": {"shells": true})").integrator.shells, std::optional(true));
-    for (const auto& [name, form] : {std::pair{"full", StfForm::full}, {"cosine", StfForm::cosine}, {"hg", StfForm::hg}, {"interpolated", StfForm::interpolated}}) {
+    for (const auto& [name, form] : {std::pair{"full", StfForm::full},
+                                     {"cosine", StfForm::cosine},
+                                     {"hg", StfForm::hg},
+                                     {"interpolated", StfForm::interpolated}}) {
         EXPECT_EQ(read_with(fmt::format(R"("integrator": {{"stf_form": "{}"}})", name)).integrator.stf_form, form);
     }
 }
 
 TEST(SceneDescription, ReadsMedia)
 {
-    const SceneDescription scene = read_with(R"("medium": [{"mesh": "slab.off", "sigma_t": [1, 2, 3], "albedo": 0.9, "g": -0.5},
+    const SceneDescription scene =
+        read_with(R"("medium": [{"mesh": "slab.off", "sigma_t": [1, 2, 3], "albedo": 0.9, "g": -0.5},
         {"vdb": "cloud.vdb", "density": "rho", "scale": 10, "albedo": "colour", "g": 0.85, "interpolation": "nearest"}], "integrator": {"kind": "vpt", "grain_depth": 4, "medium_form": "walk"})");
     ASSERT_EQ(scene.media.size(), 2u);
     EXPECT_EQ(scene.media[0].mesh.filename(), "slab.off");
@@ -261,7 +301,8 @@ TEST(SceneDescription, TakesNullForAbsent)
 TEST(SceneDescription, CanonicalTextIgnoresLayoutAndComments)
 {
     const std::string text = "{" + camera + R"(, "film": {"size": [4, 3]}})";
-    EXPECT_EQ(read("// A comment\n" + text).canonical, read(R"({"film": /* here */ {"size":[4,3]}, )" + camera + "}").canonical);
+    EXPECT_EQ(read("// A comment\n" + text).canonical,
+              read(R"({"film": /* here */ {"size":[4,3]}, )" + camera + "}").canonical);
     EXPECT_NE(read(text).canonical, read("{" + camera + R"(, "film": {"size": [3, 4]}})").canonical);
 }
 

@@ -31,11 +31,15 @@ struct Plans : testing::Test {
         integrator.accuracy = accuracy;
         return plan_transport(integrator, camera, film, facts);
     }
-    TransportPlan automatic(Accuracy accuracy = Accuracy::standard) { return plan(IntegratorKind::automatic, accuracy); }
+    TransportPlan automatic(Accuracy accuracy = Accuracy::standard)
+    {
+        return plan(IntegratorKind::automatic, accuracy);
+    }
 };
 
 constexpr std::array accuracies{Accuracy::reference, Accuracy::high, Accuracy::standard, Accuracy::draft};
-constexpr std::array kinds{IntegratorKind::automatic, IntegratorKind::ept, IntegratorKind::ppt, IntegratorKind::vpt, IntegratorKind::stf};
+constexpr std::array kinds{IntegratorKind::automatic, IntegratorKind::ept, IntegratorKind::ppt, IntegratorKind::vpt,
+                           IntegratorKind::stf};
 
 void expect_every_grain_as_it_is(const TransportPlan& plan)
 {
@@ -105,7 +109,8 @@ TEST_F(Plans, AutoGoesByAccuracy)
         uint32_t explicit_grains;
         double least_pixels, depth_radii, depth_flights;
     };
-    for (const Expected& expected : {Expected{Accuracy::high, 1, 0.5, 8, 5}, {Accuracy::standard, 1, 1, 4, 2.5}, {Accuracy::draft, 0, 0, 2, 1}}) {
+    for (const Expected& expected :
+         {Expected{Accuracy::high, 1, 0.5, 8, 5}, {Accuracy::standard, 1, 1, 4, 2.5}, {Accuracy::draft, 0, 0, 2, 1}}) {
         const TransportPlan made = automatic(expected.accuracy);
         EXPECT_EQ(made.explicit_grains, expected.explicit_grains);
         EXPECT_EQ(made.least_pixels, expected.least_pixels);
@@ -273,10 +278,13 @@ TEST_F(Plans, WithoutGrainsThereIsNothingForThem)
                 if (asked) integrator.explicit_grains = 1;
                 if (asked) integrator.grain_depth = 0;
                 const TransportPlan made = plan(kind, accuracy);
-                EXPECT_FALSE(made.has_exemplars() || made.has_proxies() || made.needs_gsdfs() || made.has_grain_medium || made.replaces_all);
+                EXPECT_FALSE(made.has_exemplars() || made.has_proxies() || made.needs_gsdfs() ||
+                             made.has_grain_medium || made.replaces_all);
                 EXPECT_EQ(made.why, "the scene has no grains");
                 EXPECT_EQ(made.why_no_medium, "the scene has no grains");
-                EXPECT_EQ(made.has_shells, kind == IntegratorKind::stf || (kind == IntegratorKind::automatic && accuracy != Accuracy::reference)) << "media have them";
+                EXPECT_EQ(made.has_shells, kind == IntegratorKind::stf ||
+                                               (kind == IntegratorKind::automatic && accuracy != Accuracy::reference))
+                    << "media have them";
             }
         }
     }

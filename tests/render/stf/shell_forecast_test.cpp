@@ -20,7 +20,9 @@ double smooth(int, int, int) { return 1; }
 double fractal(int i, int j, int k)
 {
     double sum = 0, scale = 0.1, weight = 0.5;
-    for (int octave = 0; octave < 5; ++octave, scale *= 2, weight *= 0.7) sum += weight * std::sin(scale * i + octave) * std::sin(scale * j + 2 * octave) * std::sin(scale * k + 3 * octave);
+    for (int octave = 0; octave < 5; ++octave, scale *= 2, weight *= 0.7)
+        sum +=
+            weight * std::sin(scale * i + octave) * std::sin(scale * j + 2 * octave) * std::sin(scale * k + 3 * octave);
     return std::exp(4 * sum);
 }
 

@@ -18,7 +18,8 @@ using namespace test;
 
 TEST(StfBuilder, WeightsSumToOneHoweverFewTheRecords)
 {
-    // At this g a rare walk is turned by much. Where only few records hold such a one, the tilt that would put both means right takes more than all from others.
+    // At this g a rare walk is turned by much. Where only few records hold such a one, the tilt that would put both
+    // means right takes more than all from others.
     uint64_t cut = 0;
     for (uint64_t seed = 1; seed <= 20; ++seed) {
         StfOptions options;
@@ -44,7 +45,8 @@ TEST(StfBuilder, WeightsSumToOneHoweverFewTheRecords)
         options.records = 1 << 6;
         Stf stf(g);
         extend_stf(stf, 2, options, Progress());
-        for (const StfShell& shell : stf.shells) EXPECT_NEAR(std::accumulate(shell.exit_weights.begin(), shell.exit_weights.end(), 0.0), 1, 1e-6) << g;
+        for (const StfShell& shell : stf.shells)
+            EXPECT_NEAR(std::accumulate(shell.exit_weights.begin(), shell.exit_weights.end(), 0.0), 1, 1e-6) << g;
     }
 }
 
@@ -56,8 +58,14 @@ TEST(StfBuilder, TheSameWhateverTheThreadsAndWhenItWasMade)
     const auto equal = [](const Stf& a, const Stf& b) {
         ASSERT_EQ(a.shells.size(), b.shells.size());
         for (size_t i = 0; i < a.shells.size(); ++i) {
-            EXPECT_EQ(std::memcmp(a.shells[i].exits.data(), b.shells[i].exits.data(), a.shells[i].exits.size() * sizeof(ShellExit)), 0) << i;
-            EXPECT_EQ(std::memcmp(a.shells[i].events.data(), b.shells[i].events.data(), a.shells[i].events.size() * sizeof(ShellEvent)), 0) << i;
+            EXPECT_EQ(std::memcmp(a.shells[i].exits.data(), b.shells[i].exits.data(),
+                                  a.shells[i].exits.size() * sizeof(ShellExit)),
+                      0)
+                << i;
+            EXPECT_EQ(std::memcmp(a.shells[i].events.data(), b.shells[i].events.data(),
+                                  a.shells[i].events.size() * sizeof(ShellEvent)),
+                      0)
+                << i;
             EXPECT_EQ(a.shells[i].exit_weights, b.shells[i].exit_weights);
             EXPECT_EQ(a.shells[i].event_sum, b.shells[i].event_sum);
         }
@@ -78,7 +86,9 @@ TEST(StfCache, IsKeptOnDiskAndMadeAgainWhenDamaged)
     StfOptions options;
     options.walks = 1 << 10;
     options.records = 1 << 7;
-    const auto find = [&](size_t shells) { return StfCache(folder.path(""), options).find(0.3, nullptr, shells, Progress()); };
+    const auto find = [&](size_t shells) {
+        return StfCache(folder.path(""), options).find(0.3, nullptr, shells, Progress());
+    };
     const auto first = find(3);
     EXPECT_EQ(first.computed, 3u);
     EXPECT_EQ(find(3).computed, 0u);
@@ -91,7 +101,8 @@ TEST(StfCache, IsKeptOnDiskAndMadeAgainWhenDamaged)
     std::ifstream in(file, std::ios::binary);
     const std::string good{std::istreambuf_iterator<char>(in), {}};
     int damages = 0;
-    for (const size_t at : {size_t{0}, size_t{9}, size_t{13}, size_t{20}, size_t{30}, size_t{40}, size_t{60}, good.size() / 2, good.size() - 1}) {
+    for (const size_t at : {size_t{0}, size_t{9}, size_t{13}, size_t{20}, size_t{30}, size_t{40}, size_t{60},
+                            good.size() / 2, good.size() - 1}) {
         std::string bad = good;
         bad[at] = static_cast<char>(bad[at] ^ 0x40);
         std::ofstream(file, std::ios::binary) << bad;

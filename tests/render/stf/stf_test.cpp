@@ -35,7 +35,8 @@ struct Case {
 };
 const std::vector<Case> cases{{0, 0}, {0, 3}, {0, 6}, {0, 10}, {0.8, 2}, {0.8, 8}, {-0.5, 6}, {0.95, 9}};
 
-/// Part of the light that scatters once: int_0^R exp(-t) int p(mu) exp(-d(t, mu)) dmu dt by midpoints, where d is the way from there to the shell.
+/// Part of the light that scatters once: int_0^R exp(-t) int p(mu) exp(-d(t, mu)) dmu dt by midpoints, where d is the
+/// way from there to the shell.
 double single_part(double g, double radius)
 {
     constexpr int n = 1500;
@@ -65,17 +66,21 @@ TEST(Stf, ScattersNeverOnceAndMoreOftenAsQuadratureHasIt)
                 more.add(events > 1);
             }
             EXPECT_LT(std::abs(none.z(std::exp(-radius))), 4) << radius;
-            EXPECT_LT(std::abs(once.z(single)), 4) << g << ", " << radius << ": " << once.mean() << " against " << single;
+            EXPECT_LT(std::abs(once.z(single)), 4)
+                << g << ", " << radius << ": " << once.mean() << " against " << single;
 
             // The parts that a path is given; that they sum to 1 holds by their weights alone.
             const StfShell& shell = stf->shells[k];
             const double scattered = 1 - std::exp(-radius);
             double recorded = 0, multiple = 0;
-            for (size_t i = 0; i < shell.exits.size(); ++i) (shell.exits[i].events == 1 ? recorded : multiple) += shell.exit_weights[i] * scattered;
-            const double part = single / scattered, error = scattered * std::sqrt(part * (1 - part) / static_cast<double>(StfOptions().walks));
+            for (size_t i = 0; i < shell.exits.size(); ++i)
+                (shell.exits[i].events == 1 ? recorded : multiple) += shell.exit_weights[i] * scattered;
+            const double part = single / scattered,
+                         error = scattered * std::sqrt(part * (1 - part) / static_cast<double>(StfOptions().walks));
             EXPECT_LT(std::abs(recorded - single), 4 * error) << g << ", " << radius;
             EXPECT_LT(std::abs(multiple - (1 - std::exp(-radius) - single)), 4 * error) << g << ", " << radius;
-            EXPECT_LT(std::abs(multiple - more.mean()), 4 * std::hypot(error, more.standard_error())) << g << ", " << radius;
+            EXPECT_LT(std::abs(multiple - more.mean()), 4 * std::hypot(error, more.standard_error()))
+                << g << ", " << radius;
         }
     }
 }
@@ -95,7 +100,8 @@ struct Cells {
     size_t of(const ShellExit& exit) const
     {
         const auto place = static_cast<size_t>(std::clamp((exit.cos_t + 1) * 4.0, 0.0, 7.0));
-        const double out2 = 1 - double{exit.away} * exit.away - double{exit.across} * exit.across; // uniform, were the direction cosine distributed
+        const double out2 = 1 - double{exit.away} * exit.away -
+                            double{exit.across} * exit.across; // uniform, were the direction cosine distributed
         const auto out = static_cast<size_t>(std::clamp(out2 * 3, 0.0, 2.0));
         const size_t side = exit.away > 0;
         const size_t events = static_cast<size_t>(std::upper_bound(quartiles, quartiles + 3, exit.events) - quartiles);
@@ -105,9 +111,10 @@ struct Cells {
 
 TEST(Stf, RecordsAreAsWalksAreInPlaceDirectionAndEvents)
 {
-    // Power: a shell's records carry the noise of its own walks and of those in the smaller shells they used, which is taken as half of its own variance for each
-    // smaller shell: a bound that is not measured. So a mean cell of the 192 that is 20 % off shows at 2.9 standard errors in the smallest shell, 1.9 in
-    // the tenth, and 1.4 in the eleventh, which has a quarter of the walks; what is off in many cells together shows far earlier in the sum.
+    // Power: a shell's records carry the noise of its own walks and of those in the smaller shells they used, which is
+    // taken as half of its own variance for each smaller shell: a bound that is not measured. So a mean cell of the 192
+    // that is 20 % off shows at 2.9 standard errors in the smallest shell, 1.9 in the tenth, and 1.4 in the eleventh,
+    // which has a quarter of the walks; what is off in many cells together shows far earlier in the sum.
     constexpr size_t n = 60'000;
     const double level = sidak(1e-4, static_cast<int>(cases.size()));
     for (const Case& c : cases) {
@@ -139,7 +146,8 @@ TEST(Stf, WhatIsLeftAtAnAlbedoIsAsWalksHaveIt)
         for (const double albedo : {1.0, 0.999, 0.97, 0.8}) {
             const ShellSampler sampler(stf->shells[c.shell], albedo);
             if (sampler.survival() < 1e-5) continue; // a few walks of all
-            // Sums over walks and the same over draws: survival, forward part, outward part; and of scatterings near the shell.
+            // Sums over walks and the same over draws: survival, forward part, outward part; and of scatterings near
+            // the shell.
             Estimate left, forward, outward, near, depth;
             for (const ShellWalk& walk : walks) {
                 const double weight = std::pow(albedo, walk.exit.events);
@@ -160,10 +168,16 @@ TEST(Stf, WhatIsLeftAtAnAlbedoIsAsWalksHaveIt)
             }
             // The records' own noise is that of some 2^17 walks and of those in smaller shells.
             const double chained = 1 + 0.5 * static_cast<double>(c.shell);
-            const auto own = [&](const Estimate& e) { return e.standard_error() * std::sqrt(static_cast<double>(e.count()) / static_cast<double>(StfOptions().walks) * chained); };
+            const auto own = [&](const Estimate& e) {
+                return e.standard_error() *
+                       std::sqrt(static_cast<double>(e.count()) / static_cast<double>(StfOptions().walks) * chained);
+            };
             const auto expect = [&](const Estimate& walked, double drawn, double error, const char* what) {
-                const double sigma = std::sqrt(std::pow(walked.standard_error(), 2) + std::pow(own(walked), 2) + error * error);
-                EXPECT_LT(std::abs(walked.mean() - drawn), 4.5 * sigma + 1e-9) << what << ", g " << c.g << ", R " << radius << ", albedo " << albedo << ": " << walked.mean() << " +- " << sigma << " against " << drawn;
+                const double sigma =
+                    std::sqrt(std::pow(walked.standard_error(), 2) + std::pow(own(walked), 2) + error * error);
+                EXPECT_LT(std::abs(walked.mean() - drawn), 4.5 * sigma + 1e-9)
+                    << what << ", g " << c.g << ", R " << radius << ", albedo " << albedo << ": " << walked.mean()
+                    << " +- " << sigma << " against " << drawn;
             };
             expect(left, sampler.survival(), 0, "left");
             expect(forward, drawn_forward.mean(), drawn_forward.standard_error(), "forward");
@@ -209,8 +223,9 @@ TEST(Stf, KeepsWhatEveryWalkKeepsInTheMean)
 
 TEST(Stf, LargeShellsAreAsDiffusionHasThem)
 {
-    // Isotropic scattering, an extrapolated boundary 0.7104 beyond the shell (Milne's problem): the mean number of scatterings of light from a ball's centre is
-    // (R + 0.7104)^2 / (2 D) with D = 1 a scattering, up to a term of the order of 1; and it leaves with a mean cosine of 0.7104, up to one of 1 / R.
+    // Isotropic scattering, an extrapolated boundary 0.7104 beyond the shell (Milne's problem): the mean number of
+    // scatterings of light from a ball's centre is (R + 0.7104)^2 / (2 D) with D = 1 a scattering, up to a term of the
+    // order of 1; and it leaves with a mean cosine of 0.7104, up to one of 1 / R.
     const auto stf = shells_of(0, 15);
     for (const size_t k : {12u, 14u}) {
         const StfShell& shell = stf->shells[k];
@@ -220,7 +235,8 @@ TEST(Stf, LargeShellsAreAsDiffusionHasThem)
             out += shell.exit_weights[i] * place_of(shell.exits[i]).direction.dot(place_of(shell.exits[i]).place);
         }
         const double reach = shell.radius + 0.7104;
-        EXPECT_NEAR(events / (0.5 * reach * reach), 1, 0.015) << shell.radius; // a standard error of 0.8 / sqrt(2^17) a shell, over some ten that it is made of
+        EXPECT_NEAR(events / (0.5 * reach * reach), 1, 0.015)
+            << shell.radius; // a standard error of 0.8 / sqrt(2^17) a shell, over some ten that it is made of
         EXPECT_NEAR(out, 0.7104, 0.005) << shell.radius;
     }
 }
@@ -260,7 +276,8 @@ TEST(PhaseTable, SamplesAsItsDensity)
         observed[CosineTable::bin(c)] += 1;
         cosine.add(c);
     }
-    for (uint32_t i = 0; i < CosineTable::bins; ++i) expected[i] = n * 2 * pi * phase.pdf((i + 0.5) * CosineTable::width() - 1) * CosineTable::width();
+    for (uint32_t i = 0; i < CosineTable::bins; ++i)
+        expected[i] = n * 2 * pi * phase.pdf((i + 0.5) * CosineTable::width() - 1) * CosineTable::width();
     const ChiSquare test = chi_square(observed, expected);
     EXPECT_GT(test.p_value, 1e-4) << test.text;
     EXPECT_LT(std::abs(cosine.z(phase.mean_cosine())), 4);

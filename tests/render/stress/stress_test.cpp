@@ -1,8 +1,8 @@
 // The stress test of `scree bench --stress`: that its cases pass, and that it sees what it is there to see.
 
+#include "base/sampler.h"
 #include "render/stress/stress.h"
 #include "render/stress/stress_comparison.h"
-#include "base/sampler.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

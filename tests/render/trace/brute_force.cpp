@@ -39,7 +39,8 @@ BruteForce::BruteForce(const World& world) : world_(world)
     }
     first_of_grain_.push_back(triangles_.size());
     for (uint32_t i = 0; i < world.surfaces.size(); ++i) {
-        for (uint32_t k = 0; k < world.surfaces[i].triangles.size(); ++k) add({HitKind::surface, i, k}, surface_triangle(world, i, k));
+        for (uint32_t k = 0; k < world.surfaces[i].triangles.size(); ++k)
+            add({HitKind::surface, i, k}, surface_triangle(world, i, k));
     }
 }
 
@@ -62,7 +63,8 @@ Truth BruteForce::inside(uint32_t grain, const V3d& o, const V3d& d, const Place
         truth.offer({HitKind::grain, grain, no_triangle}, along + safe_sqrt(r * r - (to - along * d).length2()));
     } else {
         const size_t mesh = grain - world_.grains.analytic_count;
-        for (size_t j = first_of_grain_[mesh]; j < first_of_grain_[mesh + 1]; ++j) try_triangle(triangles_[j], false, o, d, from, truth);
+        for (size_t j = first_of_grain_[mesh]; j < first_of_grain_[mesh + 1]; ++j)
+            try_triangle(triangles_[j], false, o, d, from, truth);
     }
     for (; k < triangles_.size(); ++k) try_triangle(triangles_[k], false, o, d, from, truth);
     truth.judge();
@@ -87,7 +89,8 @@ void BruteForce::try_sphere(uint32_t i, const V3d& o, const V3d& d, const Place&
 }
 
 // Of a grain's triangles only those that the ray enters (or leaves) through; of surfaces all.
-void BruteForce::try_triangle(const Triangle& triangle, bool entering, const V3d& o, const V3d& d, const Place& from, Truth& truth)
+void BruteForce::try_triangle(const Triangle& triangle, bool entering, const V3d& o, const V3d& d, const Place& from,
+                              Truth& truth)
 {
     const Place& place = triangle.place;
     if (from.kind == place.kind && from.index == place.index && from.triangle == place.triangle) return;

@@ -10,7 +10,8 @@
 namespace scree {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
-inline constexpr double float_margin = 0x1p-20; ///< of rays through render coordinates of size 1: a few roundings of 2^-24
+inline constexpr double float_margin =
+    0x1p-20; ///< of rays through render coordinates of size 1: a few roundings of 2^-24
 
 V3d random_direction(Sampler& sampler);
 /// In the cube of half an edge `half` around 0.
@@ -62,7 +63,8 @@ private:
     };
     void add(const Place& place, const std::array<V3d, 3>& c);
     void try_sphere(uint32_t i, const V3d& o, const V3d& d, const Place& from, Truth& truth) const;
-    static void try_triangle(const Triangle& triangle, bool entering, const V3d& o, const V3d& d, const Place& from, Truth& truth);
+    static void try_triangle(const Triangle& triangle, bool entering, const V3d& o, const V3d& d, const Place& from,
+                             Truth& truth);
 
     const World& world_;
     std::vector<Triangle> triangles_; // of grains, then of surfaces

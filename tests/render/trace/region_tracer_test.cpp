@@ -1,4 +1,5 @@
-// Rays go through closed surfaces of media as often out as in, wherever they start and however near to edges and corners they pass.
+// Rays go through closed surfaces of media as often out as in, wherever they start and however near to edges and
+// corners they pass.
 
 #include "render/trace/region_tracer.h"
 #include "tests/builders/scenes.h"
@@ -59,19 +60,24 @@ TEST(RegionTracer, ARayFromWithinAlwaysLeaves)
     Sampler sampler(11, 0, 0, 0);
     for (int i = 0; i < 400000; ++i) {
         const double depth = std::pow(10.0, -12 * sampler.next());
-        const V3d on = place_on(corners_of(ball, static_cast<size_t>(sampler.next() * static_cast<double>(ball.triangles.size()))), sampler, i, depth);
+        const V3d on =
+            place_on(corners_of(ball, static_cast<size_t>(sampler.next() * static_cast<double>(ball.triangles.size()))),
+                     sampler, i, depth);
         const V3d o = on + depth * (middle - on), d = random_direction(sampler);
         Crossing first, second;
         RegionSet regions = 1;
         ASSERT_EQ(tracer.inside(o, d), 1u) << "from " << o << " along " << d << ", " << depth << " deep";
-        ASSERT_TRUE(tracer.next(o, d, 0, infinity, nullptr, regions, first)) << "from " << o << " along " << d << ", " << depth << " deep";
+        ASSERT_TRUE(tracer.next(o, d, 0, infinity, nullptr, regions, first))
+            << "from " << o << " along " << d << ", " << depth << " deep";
         ASSERT_FALSE(first.enters) << "from " << o << " along " << d << ", " << depth << " deep";
         regions = RegionTracer::after(regions, first);
-        ASSERT_FALSE(tracer.next(o, d, first.t, infinity, &first, regions, second)) << "from " << o << " along " << d << ", " << depth << " deep";
+        ASSERT_FALSE(tracer.next(o, d, first.t, infinity, &first, regions, second))
+            << "from " << o << " along " << d << ", " << depth << " deep";
     }
 }
 
-// What rounding leaves of a corner is on one side of the ray or on the other, but on the same for all triangles that share it.
+// What rounding leaves of a corner is on one side of the ray or on the other, but on the same for all triangles that
+// share it.
 TEST(RegionTracer, ARayFromOutsideEntersAndLeavesInTurn)
 {
     const RegionTracer& tracer = *ball_scene().tracer().regions();
@@ -80,8 +86,10 @@ TEST(RegionTracer, ARayFromOutsideEntersAndLeavesInTurn)
     int met = 0;
     for (int i = 0; i < 400000; ++i) {
         const V3d d = random_direction(sampler);
-        const auto c = corners_of(ball, static_cast<size_t>(sampler.next() * static_cast<double>(ball.triangles.size())));
-        const V3d beside = std::pow(10.0, -3 - 6 * sampler.next()) * random_direction(sampler); // what only touches a corner may do either
+        const auto c =
+            corners_of(ball, static_cast<size_t>(sampler.next() * static_cast<double>(ball.triangles.size())));
+        const V3d beside = std::pow(10.0, -3 - 6 * sampler.next()) *
+                           random_direction(sampler); // what only touches a corner may do either
         const V3d o = place_on(c, sampler, i, 1e-7) + beside - 3 * std::pow(10.0, 2 * sampler.next()) * d;
         RegionSet regions = 0, known = 0;
         Crossing crossing;
@@ -122,7 +130,9 @@ TEST(RegionTracer, RaysAlongTheAxesOfACubeEnterAndLeaveOnce)
                     EXPECT_EQ(tracer.after(0, o, o + 3 * half * d), 1u);
                     EXPECT_EQ(tracer.after(0, o, o + 6 * half * d), 0u);
                     regions = RegionTracer::after(regions, first);
-                    ASSERT_TRUE(tracer.next(o, d, first.t, infinity, &first, regions, second) && !second.enters && regions == 1) << o << " along " << d;
+                    ASSERT_TRUE(tracer.next(o, d, first.t, infinity, &first, regions, second) && !second.enters &&
+                                regions == 1)
+                        << o << " along " << d;
                     EXPECT_EQ(first.t, 2 * half);
                     EXPECT_EQ(second.t, 4 * half);
                     regions = 0;
@@ -139,13 +149,15 @@ TEST(RegionTracer, MeetsTrianglesFromFarAway)
     Sampler sampler(13, 0, 0, 0);
     for (int i = 0; i < 20000; ++i) {
         const V3d d = random_direction(sampler);
-        const auto c = corners_of(ball, static_cast<size_t>(sampler.next() * static_cast<double>(ball.triangles.size())));
+        const auto c =
+            corners_of(ball, static_cast<size_t>(sampler.next() * static_cast<double>(ball.triangles.size())));
         const V3d normal = (c[1] - c[0]).cross(c[2] - c[0]).normalized();
         if (normal.dot(d) > -0.1) continue;
         const double away = std::pow(10.0, 2 + 7 * sampler.next());
         RegionSet regions = 0;
         Crossing crossing;
-        ASSERT_TRUE(tracer.next((c[0] + c[1] + c[2]) / 3 - away * d, d, 0, infinity, nullptr, regions, crossing)) << away;
+        ASSERT_TRUE(tracer.next((c[0] + c[1] + c[2]) / 3 - away * d, d, 0, infinity, nullptr, regions, crossing))
+            << away;
         ASSERT_TRUE(crossing.enters);
         ASSERT_NEAR(crossing.t, away, 1e-14 * away) << "a face in front of another one is none";
     }

@@ -59,10 +59,12 @@ TEST(SizeClasses, SpheresAreMetAsByBruteForce)
         Sampler sampler(5, n, 0, 0);
         const double away = world.space.length(std::pow(10.0, least + (most - least) * sampler.next()));
         const V3d o = random_direction(sampler) * away;
-        const GrainSphere aim = world.sphere(static_cast<uint64_t>(sampler.next() * static_cast<double>(world.grains.size())));
+        const GrainSphere aim =
+            world.sphere(static_cast<uint64_t>(sampler.next() * static_cast<double>(world.grains.size())));
         const V3d d = (aim.centre + aim.radius * random_direction(sampler) * sampler.next() - o).normalized();
         bool within = false;
-        for (uint64_t i = 0; i < world.grains.size(); ++i) within |= (world.sphere(i).centre - o).length() < world.sphere(i).radius * 1.0001;
+        for (uint64_t i = 0; i < world.grains.size(); ++i)
+            within |= (world.sphere(i).centre - o).length() < world.sphere(i).radius * 1.0001;
         if (within) continue;
         const Met met = brute_force(world, o, d);
         if (met.close) {
@@ -72,7 +74,9 @@ TEST(SizeClasses, SpheresAreMetAsByBruteForce)
         ++checked;
         const Hit hit = scene.tracer().intersect(o, d, {});
         ASSERT_EQ(hit.place.kind == HitKind::grain, met.grain != ~uint64_t{0}) << n << ": from " << o << " along " << d;
-        EXPECT_EQ(scene.tracer().occluded(o, d, infinity, {}, std::numeric_limits<uint32_t>::max()), hit.place.kind == HitKind::grain) << n;
+        EXPECT_EQ(scene.tracer().occluded(o, d, infinity, {}, std::numeric_limits<uint32_t>::max()),
+                  hit.place.kind == HitKind::grain)
+            << n;
         if (hit.place.kind != HitKind::grain) continue;
         ++hits;
         ASSERT_EQ(hit.place.index, met.grain) << n;

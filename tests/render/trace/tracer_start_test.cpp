@@ -33,7 +33,8 @@ TEST(TracerStart, LeavingASphereNeverMeetsItAgain)
         const V3d o = scene.world().grains.centre(grain) + scene.world().grains.radius(grain) * n;
         const Place from{HitKind::grain, grain, no_triangle};
         const Hit hit = scene.tracer().intersect(o, d, from);
-        ASSERT_FALSE(hit.place.kind == HitKind::grain && hit.place.index == grain) << grain << " from " << o << " along " << d;
+        ASSERT_FALSE(hit.place.kind == HitKind::grain && hit.place.index == grain)
+            << grain << " from " << o << " along " << d;
         ASSERT_TRUE(hit.place.kind != HitKind::none || !scene.tracer().occluded(o, d, infinity, from, 0));
     }
 }
@@ -77,8 +78,9 @@ TEST(TracerStart, LeavingAConvexMeshGrainNeverMeetsItAgain)
         const bool again = hit.place.kind == HitKind::grain && hit.place.index == grain;
         const bool shadowed = hit.place.kind == HitKind::none && scene.tracer().occluded(o, d, infinity, from, 0);
         if ((again || shadowed) && ++wrong < 4) {
-            ADD_FAILURE() << "grain " << grain << " triangle " << triangle << " from " << o << " (case " << i % 6 << ") along " << d << ", cosine "
-                          << d.dot(unit_normal(corners)) << ", met triangle " << hit.place.triangle << " at " << hit.t;
+            ADD_FAILURE() << "grain " << grain << " triangle " << triangle << " from " << o << " (case " << i % 6
+                          << ") along " << d << ", cosine " << d.dot(unit_normal(corners)) << ", met triangle "
+                          << hit.place.triangle << " at " << hit.t;
         }
     }
     EXPECT_EQ(wrong, 0);
@@ -102,17 +104,21 @@ TEST(TracerStart, RaysIntoAConvexMeshGrainComeOut)
         const auto triangle = static_cast<uint32_t>(sampler.next() * static_cast<double>(exemplar.triangle_count()));
         const auto corners = grain_triangle(world, grain, triangle);
         const V3d o = point_of(corners, sampler, i), d = leaving_direction(sampler, -unit_normal(corners), i);
-        const Hit hit = scene.tracer().intersect_inside({HitKind::grain, grain, no_triangle, world.type(grain)}, o, d, {HitKind::grain, grain, triangle});
+        const Hit hit = scene.tracer().intersect_inside({HitKind::grain, grain, no_triangle, world.type(grain)}, o, d,
+                                                        {HitKind::grain, grain, triangle});
         const double r = world.grains.radius(grain);
         if (hit.place.kind == HitKind::none) {
             (i % 6 == 5 ? lost_within : lost_at_edges) += 1;
             continue;
         }
-        const bool right = hit.place.index == grain && hit.place.triangle != triangle && hit.t >= 0 && hit.t <= 2.001 * r &&
-                           hit.normal.dot(d) > 0 && (hit.point - (o + hit.t * d)).length() < 2 * float_margin * r / std::max(1e-4, hit.normal.dot(d));
+        const bool right =
+            hit.place.index == grain && hit.place.triangle != triangle && hit.t >= 0 && hit.t <= 2.001 * r &&
+            hit.normal.dot(d) > 0 &&
+            (hit.point - (o + hit.t * d)).length() < 2 * float_margin * r / std::max(1e-4, hit.normal.dot(d));
         if (!right && ++wrong < 4) {
-            ADD_FAILURE() << "grain " << grain << " triangle " << triangle << " from " << o << " along " << d << ": triangle " << hit.place.triangle << " at "
-                          << hit.t / r << " radii, " << (hit.point - (o + hit.t * d)).length() / r << " off the ray";
+            ADD_FAILURE() << "grain " << grain << " triangle " << triangle << " from " << o << " along " << d
+                          << ": triangle " << hit.place.triangle << " at " << hit.t / r << " radii, "
+                          << (hit.point - (o + hit.t * d)).length() / r << " off the ray";
         }
     }
     EXPECT_EQ(wrong, 0);
@@ -129,7 +135,8 @@ TEST(TracerStart, LeavingASurfaceNeverMeetsItAgain)
     for (V3d& p : ball.positions) p = 0.01 * p + V3d(57.3, -33.1, 21.7);
     TriangleMesh plane;
     for (int j = 0; j <= 8; ++j) {
-        for (int i = 0; i <= 8; ++i) plane.positions.push_back(V3d(-3, 0.1, 0) + 0.123 * i * V3d(1, 0.2, 0.1) + 0.177 * j * V3d(-0.1, 1, 0.3));
+        for (int i = 0; i <= 8; ++i)
+            plane.positions.push_back(V3d(-3, 0.1, 0) + 0.123 * i * V3d(1, 0.2, 0.1) + 0.177 * j * V3d(-0.1, 1, 0.3));
     }
     for (uint32_t j = 0; j < 8; ++j) {
         for (uint32_t i = 0; i < 8; ++i) {
@@ -148,7 +155,8 @@ TEST(TracerStart, LeavingASurfaceNeverMeetsItAgain)
         const Surface& surface = world.surfaces[index];
         const auto triangle = static_cast<uint32_t>(sampler.next() * static_cast<double>(surface.triangles.size()));
         const auto& t = surface.triangles[triangle];
-        const std::array<V3d, 3> corners{V3d(surface.positions[t[0]]), V3d(surface.positions[t[1]]), V3d(surface.positions[t[2]])};
+        const std::array<V3d, 3> corners{V3d(surface.positions[t[0]]), V3d(surface.positions[t[1]]),
+                                         V3d(surface.positions[t[2]])};
         const V3d n = unit_normal(corners) * (index == 2 && i % 2 ? -1 : 1); // the plane from both sides
         const V3d o = point_of(corners, sampler, i), d = leaving_direction(sampler, n, i);
         const Place from{HitKind::surface, index, triangle};
@@ -156,8 +164,9 @@ TEST(TracerStart, LeavingASurfaceNeverMeetsItAgain)
         const bool again = hit.place.kind == HitKind::surface && hit.place.index == index;
         const bool shadowed = hit.place.kind == HitKind::none && scene.tracer().occluded(o, d, infinity, from, 0);
         if ((again || shadowed) && ++wrong < 4) {
-            ADD_FAILURE() << "surface " << index << " triangle " << triangle << " from " << o << " (case " << i % 6 << ") along " << d << ", cosine " << d.dot(n)
-                          << ", met triangle " << hit.place.triangle << " at " << hit.t;
+            ADD_FAILURE() << "surface " << index << " triangle " << triangle << " from " << o << " (case " << i % 6
+                          << ") along " << d << ", cosine " << d.dot(n) << ", met triangle " << hit.place.triangle
+                          << " at " << hit.t;
         }
     }
     EXPECT_EQ(wrong, 0);
@@ -178,7 +187,8 @@ TEST(TracerWatertight, RaysAtEdgesAndCornersDoNotSlipThrough)
     int through_grain = 0, through_surface = 0;
     const V3d middle(world.grains.centre(0));
     V3d ball_middle(0);
-    for (const V3f& p : world.surfaces[0].positions) ball_middle += V3d(p) / static_cast<double>(world.surfaces[0].positions.size());
+    for (const V3f& p : world.surfaces[0].positions)
+        ball_middle += V3d(p) / static_cast<double>(world.surfaces[0].positions.size());
     for (int i = 0; i < 60000; ++i) {
         const auto triangle = static_cast<uint32_t>(sampler.next() * 320);
         const V3d on_grain = point_of(grain_triangle(world, 0, triangle), sampler, i % 4);
@@ -188,7 +198,8 @@ TEST(TracerWatertight, RaysAtEdgesAndCornersDoNotSlipThrough)
         const Hit hit = scene.tracer().intersect(o, d, {});
         through_grain += hit.place.kind != HitKind::grain || hit.t > (on_grain - o).length() + 1e-5;
         const auto& t = world.surfaces[0].triangles[triangle];
-        const std::array<V3d, 3> corners{V3d(world.surfaces[0].positions[t[0]]), V3d(world.surfaces[0].positions[t[1]]), V3d(world.surfaces[0].positions[t[2]])};
+        const std::array<V3d, 3> corners{V3d(world.surfaces[0].positions[t[0]]), V3d(world.surfaces[0].positions[t[1]]),
+                                         V3d(world.surfaces[0].positions[t[2]])};
         const V3d target = point_of(corners, sampler, i % 4), inside = ball_middle + 0.1 * random_direction(sampler);
         const Hit wall = scene.tracer().intersect(inside, (target - inside).normalized(), {});
         through_surface += wall.place.kind != HitKind::surface;
@@ -211,22 +222,27 @@ TEST(TracerWatertight, LongWalksInsideAreNotLost)
         V3d o = scene.world().grains.centre(grain), d = random_direction(sampler);
         Place from;
         for (int step = 0; step < 500; ++step) {
-            const Hit hit = scene.tracer().intersect_inside({HitKind::grain, grain, no_triangle, scene.world().type(grain)}, o, d, from);
+            const Hit hit = scene.tracer().intersect_inside(
+                {HitKind::grain, grain, no_triangle, scene.world().type(grain)}, o, d, from);
             ++steps;
             if (hit.place.kind == HitKind::none) {
                 ++lost;
                 break;
             }
             ASSERT_EQ(hit.place.index, grain);
-            ASSERT_LE((hit.point - scene.world().grains.centre(grain)).length(), scene.world().grains.radius(grain) * (1 + 1e-6));
+            ASSERT_LE((hit.point - scene.world().grains.centre(grain)).length(),
+                      scene.world().grains.radius(grain) * (1 + 1e-6));
             o = hit.point;
             from = hit.place;
             // A mirror on even steps, any direction inwards on odd ones.
-            if (step % 2 == 0) d = (d - 2 * d.dot(hit.normal) * hit.normal).normalized();
-            else d = leaving_direction(sampler, -hit.normal, 0);
+            if (step % 2 == 0)
+                d = (d - 2 * d.dot(hit.normal) * hit.normal).normalized();
+            else
+                d = leaving_direction(sampler, -hit.normal, 0);
         }
     }
-    std::printf("%llu of %llu segments inside were lost\n", static_cast<unsigned long long>(lost), static_cast<unsigned long long>(steps));
+    std::printf("%llu of %llu segments inside were lost\n", static_cast<unsigned long long>(lost),
+                static_cast<unsigned long long>(steps));
     EXPECT_LE(lost, steps / 100000);
 }
 

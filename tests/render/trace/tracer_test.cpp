@@ -26,28 +26,35 @@ struct Comparison {
             return;
         }
         hits += truth.place.kind != HitKind::none;
-        const bool same = hit.place.kind == truth.place.kind && (hit.place.kind == HitKind::none || (hit.place.index == truth.place.index && hit.place.triangle == truth.place.triangle));
+        const bool same = hit.place.kind == truth.place.kind &&
+                          (hit.place.kind == HitKind::none ||
+                           (hit.place.index == truth.place.index && hit.place.triangle == truth.place.triangle));
         if (!same) {
             if (++wrong <= 3) {
-                ADD_FAILURE() << "from " << o << " along " << d << ": met kind " << int(hit.place.kind) << " index " << hit.place.index << " triangle "
-                              << hit.place.triangle << " at " << hit.t << ", brute force kind " << int(truth.place.kind) << " index " << truth.place.index
+                ADD_FAILURE() << "from " << o << " along " << d << ": met kind " << int(hit.place.kind) << " index "
+                              << hit.place.index << " triangle " << hit.place.triangle << " at " << hit.t
+                              << ", brute force kind " << int(truth.place.kind) << " index " << truth.place.index
                               << " triangle " << truth.place.triangle << " at " << truth.t;
             }
             return;
         }
         if (hit.place.kind == HitKind::none) return;
         worst = std::max(worst, std::abs(hit.t - truth.t));
-        const double slack = tolerance / std::max(1e-4, std::abs(hit.normal.dot(d))); // a grazed plane is met less precisely
+        const double slack =
+            tolerance / std::max(1e-4, std::abs(hit.normal.dot(d))); // a grazed plane is met less precisely
         const bool right = std::abs(hit.t - truth.t) <= slack && (hit.point - (o + truth.t * d)).length() <= slack &&
                            std::abs(hit.normal.length() - 1) < 1e-12;
         V3d normal = hit.normal;
         if (hit.place.kind == HitKind::grain) {
-            normal = hit.place.triangle == no_triangle ? (hit.point - world.grains.centre(hit.place.index)).normalized()
-                                                       : unit_normal(grain_triangle(world, static_cast<uint32_t>(hit.place.index), hit.place.triangle));
+            normal =
+                hit.place.triangle == no_triangle
+                    ? (hit.point - world.grains.centre(hit.place.index)).normalized()
+                    : unit_normal(grain_triangle(world, static_cast<uint32_t>(hit.place.index), hit.place.triangle));
         }
         EXPECT_LT((hit.normal - normal).length(), 1e-9);
         if (!right && ++wrong <= 3) {
-            ADD_FAILURE() << "from " << o << " along " << d << ": t " << hit.t << " and " << truth.t << ", point " << hit.point << ", normal " << hit.normal;
+            ADD_FAILURE() << "from " << o << " along " << d << ": t " << hit.t << " and " << truth.t << ", point "
+                          << hit.point << ", normal " << hit.normal;
         }
     }
     void expect_good(const std::string& name, double close_fraction, double hit_fraction) const
@@ -55,7 +62,8 @@ struct Comparison {
         EXPECT_EQ(wrong, 0) << name;
         EXPECT_LT(close, close_fraction * rays) << name;
         EXPECT_GT(hits, hit_fraction * rays) << name;
-        std::printf("%-40s %6d rays, %6d hits, %3d too close to call, t within %.1e\n", name.c_str(), rays, hits, close, worst);
+        std::printf("%-40s %6d rays, %6d hits, %3d too close to call, t within %.1e\n", name.c_str(), rays, hits, close,
+                    worst);
     }
 };
 
@@ -88,9 +96,11 @@ void add_meshes(TestScene& scene, const Material& material)
         bracket.triangles.push_back({i, j, j + 6});
         bracket.triangles.push_back({i, j + 6, i + 6});
     }
-    const uint32_t types[] = {scene.add_type(material, icosphere(1)), scene.add_type(material, cube()), scene.add_type(material, bracket)};
+    const uint32_t types[] = {scene.add_type(material, icosphere(1)), scene.add_type(material, cube()),
+                              scene.add_type(material, bracket)};
     Sampler sampler(78, 0, 0, 0);
-    for (int i = 0; i < 120; ++i) scene.add_grain(random_point(sampler, 0.9), 0.05 + 0.35 * sampler.next() * sampler.next(), types[i % 3]);
+    for (int i = 0; i < 120; ++i)
+        scene.add_grain(random_point(sampler, 0.9), 0.05 + 0.35 * sampler.next() * sampler.next(), types[i % 3]);
 }
 
 TriangleMesh triangle_soup(uint64_t seed, int count)
@@ -107,14 +117,18 @@ TriangleMesh triangle_soup(uint64_t seed, int count)
 
 /// The four kinds of scenes that are traced.
 enum class Kind { spheres, meshes, surfaces, all };
-void PrintTo(Kind kind, std::ostream* out) { *out << std::array{"spheres", "meshes", "surfaces", "all"}[static_cast<size_t>(kind)]; }
+void PrintTo(Kind kind, std::ostream* out)
+{
+    *out << std::array{"spheres", "meshes", "surfaces", "all"}[static_cast<size_t>(kind)];
+}
 
 class TracerAgainstBruteForce : public testing::TestWithParam<Kind> {
 protected:
     TracerAgainstBruteForce()
     {
         const Kind kind = GetParam();
-        if (kind == Kind::spheres || kind == Kind::all) add_spheres(scene_, scene_.add_type(dielectric(1.5)), kind == Kind::all ? 100 : 300);
+        if (kind == Kind::spheres || kind == Kind::all)
+            add_spheres(scene_, scene_.add_type(dielectric(1.5)), kind == Kind::all ? 100 : 300);
         if (kind == Kind::meshes || kind == Kind::all) add_meshes(scene_, dielectric(1.4));
         if (kind == Kind::surfaces || kind == Kind::all) {
             scene_.add_surface(triangle_soup(5, 60), lambert(0.5f));
@@ -130,7 +144,9 @@ protected:
         d = random_direction(sampler);
         if (world().grains.size() == 0 || sampler.next() < 0.2) return;
         const auto grain = static_cast<uint32_t>(sampler.next() * world().grains.size());
-        d = (world().grains.centre(grain) + world().grains.radius(grain) * std::cbrt(sampler.next()) * random_direction(sampler) - o).normalized();
+        d = (world().grains.centre(grain) +
+             world().grains.radius(grain) * std::cbrt(sampler.next()) * random_direction(sampler) - o)
+                .normalized();
     }
     const BruteForce& truth() const { return *truth_; }
     const World& world() const { return scene_.world(); }
@@ -142,7 +158,8 @@ protected:
     TestScene scene_;
     std::unique_ptr<BruteForce> truth_;
 };
-INSTANTIATE_TEST_SUITE_P(Scenes, TracerAgainstBruteForce, testing::Values(Kind::spheres, Kind::meshes, Kind::surfaces, Kind::all),
+INSTANTIATE_TEST_SUITE_P(Scenes, TracerAgainstBruteForce,
+                         testing::Values(Kind::spheres, Kind::meshes, Kind::surfaces, Kind::all),
                          [](const auto& test) { return testing::PrintToString(test.param); });
 
 TEST_P(TracerAgainstBruteForce, RaysFromAnywhere)
@@ -172,7 +189,8 @@ TEST_P(TracerAgainstBruteForce, RaysFromFarAway)
             const double skip = distance - 5;
             Truth expected = truth().outside(o + skip * exact, exact, {});
             expected.t += skip;
-            comparison.check(world(), tracer().intersect(o, exact, {}), expected, o, exact, tolerance() + 0x1p-50 * distance);
+            comparison.check(world(), tracer().intersect(o, exact, {}), expected, o, exact,
+                             tolerance() + 0x1p-50 * distance);
         }
         comparison.expect_good("from " + std::to_string(distance), 0.02, 0.3);
     }
@@ -246,7 +264,9 @@ TEST_P(TracerAgainstBruteForce, OcclusionIsConsistentWithIntersection)
             if (d.dot(hit.normal) * side > 0) d = -d;
         }
         const Truth expected = truth().outside(o, d, from);
-        const double tmax = i % 3 == 0 ? infinity : i % 3 == 1 ? 3 * sampler.next() : expected.t * (sampler.next() < 0.5 ? 0.999 : 1.001);
+        const double tmax = i % 3 == 0   ? infinity
+                            : i % 3 == 1 ? 3 * sampler.next()
+                                         : expected.t * (sampler.next() < 0.5 ? 0.999 : 1.001);
         if (expected.close || std::abs(expected.t - tmax) < 4 * float_margin) {
             ++too_close;
             continue;
@@ -257,8 +277,8 @@ TEST_P(TracerAgainstBruteForce, OcclusionIsConsistentWithIntersection)
         const Hit hit = tracer().intersect(o, d, from);
         const bool met = hit.place.kind != HitKind::none && hit.t < tmax;
         if ((found != blocks || met != blocks) && ++wrong < 4) {
-            ADD_FAILURE() << "from " << o << " along " << d << " up to " << tmax << ": occluded " << found << ", intersect " << met << " at " << hit.t
-                          << ", brute force " << expected.t;
+            ADD_FAILURE() << "from " << o << " along " << d << " up to " << tmax << ": occluded " << found
+                          << ", intersect " << met << " at " << hit.t << ", brute force " << expected.t;
         }
     }
     EXPECT_EQ(wrong, 0);
