@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 namespace scree {
@@ -16,6 +17,7 @@ struct JsonValue::Root {
     json tree;
     std::string name;
     std::filesystem::path folder;
+    std::map<std::string, std::string> origins; ///< by path, of the values that do not come from the file
 };
 
 namespace {
@@ -118,7 +120,11 @@ JsonObject JsonValue::object() const
     return JsonObject(*this);
 }
 
-std::string JsonValue::place() const { return root_->name + ": " + (path_.empty() ? "/" : path_); }
+std::string JsonValue::place() const
+{
+    const auto origin = root_->origins.find(path_);
+    return origin != root_->origins.end() ? origin->second : root_->name + ": " + (path_.empty() ? "/" : path_);
+}
 const std::filesystem::path& JsonValue::folder() const { return root_->folder; }
 
 std::filesystem::path JsonValue::path() const
@@ -228,7 +234,7 @@ JsonDocument JsonDocument::load(const std::filesystem::path& file)
 JsonValue JsonDocument::root() const { return JsonValue(root_.get(), &root_->tree, ""); }
 std::string JsonDocument::canonical() const { return root_->tree.dump(-1, ' ', false, json::error_handler_t::replace); }
 
-void JsonDocument::override_value(const std::string& path, const std::string& json_text)
+void JsonDocument::override_value(const std::string& path, const std::string& json_text, const std::string& origin)
 {
     std::string pointer = path;
     if (pointer.empty() || pointer[0] != '/') {
@@ -239,9 +245,18 @@ void JsonDocument::override_value(const std::string& path, const std::string& js
     json value = json::parse(json_text, nullptr, false);
     if (value.is_discarded()) value = json_text;
     try {
-        root_->tree[json::json_pointer(pointer)] = value;
+        const json::json_pointer place(pointer);
+        if (!place.empty() && place.back() == "-") {
+            json& list = root_->tree[place.parent_pointer()];
+            list.push_back(value);
+            pointer = place.parent_pointer().to_string() + "/" + std::to_string(list.size() - 1);
+        } else {
+            root_->tree[place] = value;
+        }
+        if (!origin.empty()) root_->origins[pointer] = origin;
     } catch (const json::exception&) {
-        throw InputError("-D " + path, "a path that leads nowhere", "a path into the scene such as camera.fov");
+        throw InputError(origin.empty() ? "-D " + path : origin, "a path that leads nowhere",
+                         "a path into the scene such as camera.fov");
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/enum_names.h"
 #include "base/error.h"
 
 #include <Imath/ImathColor.h>
@@ -34,6 +35,12 @@ public:
     std::string string() const;
     /// One of `options`, as its index.
     size_t choice(const std::vector<std::string>& options) const;
+    template <class E>
+    E choice(const EnumNames<E>& names) const
+    {
+        choice(names.words());
+        return *names.find(string());
+    }
     Imath::V3d vec3() const;
     /// Three numbers in lo..hi, or one for all three.
     Imath::Color3<double> rgb(double lo, double hi) const;
@@ -92,8 +99,11 @@ public:
     JsonValue root() const;
     /// The text as compact JSON, keys sorted: the same for every layout and comment.
     std::string canonical() const;
-    /// Replaces (or adds) the value at a path such as "camera.fov" or "/camera/fov".
-    void override_value(const std::string& path, const std::string& json_text);
+    /// Replaces (or adds) the value at a path such as "camera.fov" or "/camera/fov"; "-" is the place after a list's
+    /// last.
+    ///
+    /// origin: where the value comes from, which complaints about it then name; empty: the file.
+    void override_value(const std::string& path, const std::string& json_text, const std::string& origin = "");
 
     ~JsonDocument();
     JsonDocument(JsonDocument&&) noexcept;

@@ -3,7 +3,6 @@
 #include "base/text.h"
 #include "ingest/frame_statistics.h"
 #include "ingest/meshes/triangle_mesh.h"
-#include "ingest/particles/vdb_points.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -135,43 +134,39 @@ void append_spheres(std::string& text, const json& d)
         append(text, "duplicates", d["duplicates"].dump() + " grains exactly where another one is");
 }
 
+std::string title_of_format(const std::string& name)
+{
+    const auto format =
+        std::ranges::find_if(particle_formats(), [&](const ParticleFormat& f) { return f.name == name; });
+    return format->title;
+}
+
 } // namespace
 
-json describe_dump(const std::string& pattern, size_t frame, const DumpReadOptions& options)
+json describe_particles(const std::string& pattern, size_t frame, const ParticleReadOptions& options)
 {
-    const DumpSeries series = DumpSeries::open(pattern);
-    DumpReadOptions reading = options;
-    const bool has_radius = series.has_radius(frame) || options.radius || !options.radius_of_type.empty();
+    const OpenedParticles opened = open_particles(pattern);
+    const ParticleSeries& series = *opened.series;
+    ParticleReadOptions reading = options;
+    const bool asked = options.radius || !options.radius_of_type.empty();
+    const bool has_radius = series.has_radius(frame) || asked;
     if (!has_radius) reading.radius = 0;
     const ParticleFrame particles = series.read(frame, reading);
 
-    json result{{"file", pattern}, {"format", "lammps"}, {"frames", series.frame_count()}, {"frame", frame}};
+    json result{{"file", pattern}, {"format", opened.format->name}, {"frames", series.frame_count()}, {"frame", frame}};
     json counts = json::array(), steps = json::array();
     for (size_t i = 0; i < series.frame_count(); ++i) {
-        counts.push_back(series.particle_count(i));
-        steps.push_back(series.step(i));
+        counts.push_back(i == frame ? particles.size() : series.particle_count(i));
+        steps.push_back(i == frame ? particles.step : series.step(i));
     }
     result["particles"] = std::move(counts);
     result["steps"] = std::move(steps);
-    result["columns"] = series.columns(frame);
+    result["columns"] = series.columns(frame).empty() ? json() : json(series.columns(frame));
     result["notes"] = json::array();
     for (const std::string& warning : series.warnings()) result["notes"].push_back(warning);
     describe_frame(result, particles, has_radius);
     if (!series.type_names().empty()) result["type_names"] = series.type_names();
-    if (series.has_radius(frame) && (options.radius || !options.radius_of_type.empty()))
-        result["notes"].push_back("--radius is not used: the dump has a column of radii");
-    return result;
-}
-
-json describe_points(const std::string& path)
-{
-    const ParticleFrame particles = read_vdb_points(path);
-    json result{{"file", path}, {"format", "vdb"}, {"frames", 1}, {"frame", 0}};
-    result["particles"] = {particles.size()};
-    result["steps"] = {particles.step};
-    result["columns"] = nullptr;
-    result["notes"] = json::array();
-    describe_frame(result, particles, true);
+    if (series.has_radius(frame) && asked) result["notes"].push_back("--radius is not used: the file has radii");
     return result;
 }
 
@@ -207,7 +202,7 @@ std::string text_of_description(const json& d)
         return text;
     }
     append(text, "format",
-           (d["format"] == "vdb" ? std::string("OpenVDB points") : std::string("LAMMPS dump")) +
+           title_of_format(d["format"].get<std::string>()) +
                (d["units"].is_null() ? "" : ", units " + d["units"].get<std::string>()));
     append(text, "frames", fmt::format("{}, steps {}", d["frames"].dump(), range_of(d["steps"])));
     append(text, "particles", range_of(d["particles"]) + (d["frames"] == 1 ? "" : " a frame"));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ingest/particles/dump_series.h"
+#include "ingest/particles/particle_series.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -8,11 +8,8 @@
 
 namespace scree {
 
-/// What `scree info --json` says of a dump: frames, and the statistics of one of them. Throws InputError.
-nlohmann::json describe_dump(const std::string& pattern, size_t frame, const DumpReadOptions& options);
-
-/// The same of a .vdb file of points. Throws InputError.
-nlohmann::json describe_points(const std::string& path);
+/// What `scree info --json` says of particle files: frames, and the statistics of one of them. Throws InputError.
+nlohmann::json describe_particles(const std::string& pattern, size_t frame, const ParticleReadOptions& options);
 
 /// What `scree info --json` says of a mesh. Throws InputError.
 nlohmann::json describe_mesh(const std::string& path);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/enum_names.h"
 #include "base/noise.h"
 #include "mixtures/checkerboard_mixture.h"
 
@@ -28,6 +29,7 @@ struct ExplicitDescription {
 };
 
 enum class RandomBy { number, volume };
+inline const EnumNames<RandomBy> random_by_names{{RandomBy::number, "number"}, {RandomBy::volume, "volume"}};
 
 struct RandomDescription {
     std::vector<std::string> types;

@@ -116,7 +116,7 @@ RandomDescription read_random(JsonObject& object, const Scope& scope)
     mixture.types = read_types(object, scope);
     mixture.weights.assign(mixture.types.size(), 1);
     if (const auto weights = object.find("weights")) mixture.weights = read_weights(*weights, mixture.types.size());
-    if (const auto by = object.find("by")) mixture.by = static_cast<RandomBy>(by->choice({"number", "volume"}));
+    if (const auto by = object.find("by")) mixture.by = by->choice(random_by_names);
     if (mixture.by == RandomBy::volume && mixture.types.size() > 1024)
         object.value().fail("at most 1024 types by volume");
     mixture.seed = read_seed(object);

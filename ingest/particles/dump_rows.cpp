@@ -132,8 +132,8 @@ float checked_radius(double radius, const std::string& what)
 }
 
 /// Radii that the user gave, for a dump that has none.
-void give_radii(ParticleFrame& frame, const std::string& file, const DumpHeader& header, const DumpReadOptions& options,
-                const std::vector<std::string>& type_names)
+void give_radii(ParticleFrame& frame, const std::string& file, const DumpHeader& header,
+                const ParticleReadOptions& options, const std::vector<std::string>& type_names)
 {
     if (options.radius) checked_radius(*options.radius, "--radius");
     for (const auto& [type, radius] : options.radius_of_type) checked_radius(radius, fmt::format("--radius {}=", type));
@@ -166,7 +166,7 @@ void give_radii(ParticleFrame& frame, const std::string& file, const DumpHeader&
 } // namespace
 
 ParticleFrame read_dump_rows(LineReader& reader, const DumpHeader& header, const std::vector<std::string>& type_names,
-                             const DumpReadOptions& options, const Progress& progress)
+                             const ParticleReadOptions& options, const Progress& progress)
 {
     const std::string file = reader.source().path().string();
     ParticleFrame frame;

@@ -14,6 +14,6 @@ namespace scree {
 /// reader: stands at the first of these lines. type_names: the names that count as types 1, 2, ..., sorted.
 /// Throws InputError at file:line, Cancelled.
 ParticleFrame read_dump_rows(LineReader& reader, const DumpHeader& header, const std::vector<std::string>& type_names,
-                             const DumpReadOptions& options, const Progress& progress);
+                             const ParticleReadOptions& options, const Progress& progress);
 
 } // namespace scree

@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "ingest/particles/dump_index.h"
-#include "ingest/particles/dump_pattern.h"
 #include "ingest/particles/dump_rows.h"
+#include "ingest/particles/file_pattern.h"
 
 #include <fmt/format.h>
 
@@ -36,6 +36,14 @@ struct Cursor {
 };
 
 } // namespace
+
+bool is_start_of_dump(std::string_view start) { return start.starts_with("ITEM:"); }
+
+std::unique_ptr<ParticleSeries> open_dump(const std::string& pattern, const std::vector<std::filesystem::path>& files,
+                                          const Progress& progress)
+{
+    return std::make_unique<DumpSeries>(pattern, files, progress);
+}
 
 struct DumpSeries::Impl {
     std::string pattern;
@@ -146,18 +154,22 @@ void DumpSeries::Impl::check_steps()
     }
 }
 
-DumpSeries::DumpSeries(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+DumpSeries::DumpSeries(const std::string& pattern, const std::vector<std::filesystem::path>& files,
+                       const Progress& progress)
+    : impl_(std::make_unique<Impl>())
+{
+    impl_->pattern = pattern;
+    impl_->add_files(files, progress);
+    impl_->check_steps();
+}
+
 DumpSeries::~DumpSeries() = default;
 DumpSeries::DumpSeries(DumpSeries&&) noexcept = default;
 DumpSeries& DumpSeries::operator=(DumpSeries&&) noexcept = default;
 
 DumpSeries DumpSeries::open(const std::string& pattern, const Progress& progress)
 {
-    auto impl = std::make_unique<Impl>();
-    impl->pattern = pattern;
-    impl->add_files(files_of_pattern(pattern), progress);
-    impl->check_steps();
-    return DumpSeries(std::move(impl));
+    return {pattern, files_of_pattern(pattern), progress};
 }
 
 size_t DumpSeries::frame_count() const { return impl_->frames.size(); }
@@ -176,7 +188,7 @@ const std::filesystem::path& DumpSeries::file(size_t frame) const
 }
 const std::vector<std::string>& DumpSeries::warnings() const { return impl_->warnings; }
 
-ParticleFrame DumpSeries::read(size_t frame, const DumpReadOptions& options, const Progress& progress) const
+ParticleFrame DumpSeries::read(size_t frame, const ParticleReadOptions& options, const Progress& progress) const
 {
     const FrameEntry& entry = impl_->frame(frame);
     std::unique_ptr<LineReader> reader = impl_->reader_at(entry);

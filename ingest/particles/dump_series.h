@@ -1,61 +1,49 @@
 #pragma once
 
-#include "base/progress.h"
-#include "ingest/particles/particle_frame.h"
-
-#include <filesystem>
-#include <map>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
+#include "ingest/particles/particle_series.h"
 
 namespace scree {
 
-/// How spheres get their radius when a dump has no `radius` or `diameter` column.
-struct DumpReadOptions {
-    std::optional<double> radius; ///< for every type
-    std::map<int32_t, double> radius_of_type; ///< takes precedence over `radius`
-};
+/// Whether a file that begins like this is a LAMMPS or LIGGGHTS text dump.
+bool is_start_of_dump(std::string_view start);
 
-/// The frames of a LAMMPS text dump: one file of many frames, or many files of one or more frames each.
+/// The frames of LAMMPS text dumps: one file of many frames, or many files of one or more frames each.
 ///
-/// `open` finds where every frame starts without holding a file in memory; `read` parses one frame.
-class DumpSeries {
+/// Opening finds where every frame starts without holding a file in memory. Reading frames in their order passes each
+/// file once.
+class DumpSeries final : public ParticleSeries {
 public:
-    /// pattern: a file, a glob ("pour.*.dump.gz") or a printf pattern ("pour.%04d.dump"); .gz and .zst are read
-    /// as they are. Files are ordered by their first step, frames within a file as they stand.
-    /// Throws InputError. A truncated last frame is left out and told in `warnings()`.
+    /// As open_particles(); .gz and .zst are unpacked on the way. Files are ordered by their first step, frames within
+    /// a file as they stand. A truncated last frame is left out, which `warnings()` tells.
     static DumpSeries open(const std::string& pattern, const Progress& progress = {});
+    DumpSeries(const std::string& pattern, const std::vector<std::filesystem::path>& files, const Progress& progress);
 
-    ~DumpSeries();
+    ~DumpSeries() override;
     DumpSeries(DumpSeries&&) noexcept;
     DumpSeries& operator=(DumpSeries&&) noexcept;
 
-    size_t frame_count() const;
-    int64_t step(size_t frame) const;
-    uint64_t particle_count(size_t frame) const;
+    size_t frame_count() const override;
+    int64_t step(size_t frame) const override;
+    uint64_t particle_count(size_t frame) const override;
     /// The time that `dump_modify time yes` writes.
     std::optional<double> time(size_t frame) const;
-    /// The names of the frame's columns, as the file spells them.
-    const std::vector<std::string>& columns(size_t frame) const;
-    /// Whether the frame has a column of radii or diameters; without one, `read` needs them in its options.
-    bool has_radius(size_t frame) const;
-    /// The names of types 1, 2, ... where the dump tells types by name (`element`, `typelabel`) only; else empty.
-    const std::vector<std::string>& type_names() const;
-    /// File that holds the frame.
-    const std::filesystem::path& file(size_t frame) const;
+    const std::vector<std::string>& columns(size_t frame) const override;
+    /// Whether the frame has a column of radii or diameters.
+    bool has_radius(size_t frame) const override;
+    /// From `element` or `typelabel`.
+    const std::vector<std::string>& type_names() const override;
+    const std::filesystem::path& file(size_t frame) const override;
+    const std::vector<std::string>& warnings() const override;
 
-    /// Parses one frame, sorted by id. Reading frames in their order passes each file once; may be called from
-    /// several threads. Throws InputError naming file, line, found and expected.
-    ParticleFrame read(size_t frame, const DumpReadOptions& options = {}, const Progress& progress = {}) const;
-
-    const std::vector<std::string>& warnings() const;
+    ParticleFrame read(size_t frame, const ParticleReadOptions& options = {},
+                       const Progress& progress = {}) const override;
 
 private:
     struct Impl;
-    explicit DumpSeries(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
 };
+
+std::unique_ptr<ParticleSeries> open_dump(const std::string& pattern, const std::vector<std::filesystem::path>& files,
+                                          const Progress& progress);
 
 } // namespace scree

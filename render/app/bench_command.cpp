@@ -25,8 +25,7 @@ namespace {
 constexpr int interrupted_status = 130;
 
 struct Arguments {
-    std::string integrators = "auto,ept,ppt,vpt,stf", accuracy, size;
-    std::vector<std::string> overrides;
+    std::string integrators = "auto,ept,ppt,vpt,stf", accuracy;
     BenchJob job;
     bool suite = false;
     std::filesystem::path suite_file; ///< empty: the usual one
@@ -52,8 +51,6 @@ void take_over(Arguments& a)
                          "the times of one scene are --time and --reference-time");
     if (!a.readme.empty()) throw InputError("--readme", "one scene", "--suite, whose numbers go there");
     job.methods = parse_methods(a.integrators, a.accuracy);
-    if (!a.size.empty()) job.scene.size = parse_picture_size(a.size);
-    for (const std::string& item : a.overrides) job.scene.overrides.push_back(parse_override(item));
     job.title = job.scene.scene.stem().string();
     if (job.title == "scene" && job.scene.scene.has_parent_path())
         job.title = std::filesystem::absolute(job.scene.scene).parent_path().filename().string();
@@ -147,11 +144,12 @@ void add_bench_command(CLI::App& app)
                      "Seconds of rendering for the reference, by ept (default 60); one in the folder is gone on with")
         ->check(CLI::Range(1e-3, 1e7))
         ->excludes(file);
-    command->add_option("--size", a.size, "Size of the picture, WIDTHxHEIGHT");
+    const auto size = std::ranges::find(scene_switches(), "--size", &SceneSwitch::flag);
+    add_scene_switch(*command, *size, job.scene.switches);
     command->add_option("--frame", job.frame, "Frame of the dump, counted from 0 (default: the first)");
     command->add_option("--seed", job.scene.options.seed, "Seed of the random numbers")->check(CLI::NonNegativeNumber);
     command->add_option("-t,--threads", job.scene.threads, "Threads (default: all cores)")->check(CLI::Range(1, 4096));
-    command->add_option("-D", a.overrides, "Replace a value of the scene: -D camera.fov=40");
+    add_override_option(*command, job.scene.overrides);
     CLI::Option* const suite =
         command
             ->add_option(

@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "ingest/particles/csv_points.h"
-#include "ingest/particles/dump_series.h"
+#include "ingest/particles/particle_series.h"
 #include "ingest/particles/vdb_points.h"
 #include "render/app/radius_option.h"
 
@@ -36,14 +36,14 @@ void run(ConvertOptions options)
                          "an output that ends in .csv or .vdb");
     AtomicFile file(out);
 
-    const DumpSeries series = DumpSeries::open(options.files[0]);
-    const ParticleFrame frame = series.read(options.frame, parse_radius_options(options.radii));
+    const OpenedParticles opened = open_particles(options.files[0]);
+    const ParticleFrame frame = opened.series->read(options.frame, parse_radius_options(options.radii));
     if (extension == ".csv")
         write_csv_points(frame, file.temporary());
     else
         write_vdb_points(frame, file.temporary());
     file.commit();
-    for (const std::string& warning : series.warnings()) fmt::print(stderr, "scree convert: {}\n", warning);
+    for (const std::string& warning : opened.series->warnings()) fmt::print(stderr, "scree convert: {}\n", warning);
     fmt::print("{}: {} particles of step {}\n", out.string(), frame.size(), frame.step);
 }
 

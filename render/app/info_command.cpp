@@ -23,18 +23,18 @@ struct InfoOptions {
     size_t frame = 0;
 };
 
-nlohmann::json describe(const std::string& file, const InfoOptions& options, const DumpReadOptions& reading)
+nlohmann::json describe(const std::string& file, const InfoOptions& options, const ParticleReadOptions& reading)
 {
     static constexpr std::array<std::string_view, 4> meshes{".obj", ".ply", ".stl", ".off"};
     const std::string extension = lower_case(std::filesystem::path(file).extension().string());
     if (std::ranges::find(meshes, extension) != meshes.end()) return describe_mesh(file);
-    return extension == ".vdb" ? describe_points(file) : describe_dump(file, options.frame, reading);
+    return describe_particles(file, options.frame, reading);
 }
 
 void run(InfoOptions options)
 {
     take_radii_from_files(options.files, options.radii);
-    const DumpReadOptions reading = parse_radius_options(options.radii);
+    const ParticleReadOptions reading = parse_radius_options(options.radii);
     for (const std::string& file : options.files) {
         const nlohmann::json description = describe(file, options, reading);
         // One line an object, so that several files make a stream that line-wise tools read.

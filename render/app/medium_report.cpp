@@ -2,6 +2,7 @@
 
 #include "render/build/grain_medium.h"
 #include "render/build/world_builder.h"
+#include "render/media/homogeneous_medium.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -41,13 +42,13 @@ json describe_grains(const World& world, const Progress& progress)
         return json{{"value", m.value * factor}, {"standard_error", m.error * factor}};
     };
     json forms;
-    for (size_t form = 0; form < medium_form_names.size(); ++form) {
-        const ContinuousEquivalent medium = continuous_equivalent(moments, static_cast<EquivalentForm>(form), &walk);
-        forms[medium_form_names[form]] = describe(V3d(medium.sigma_t), medium.albedo, medium.g, unit);
-        forms[medium_form_names[form]]["decay_length"] =
+    for (const auto& [form, name] : medium_form_names) {
+        const ContinuousEquivalent medium = continuous_equivalent(moments, form, &walk);
+        forms[name] = describe(V3d(medium.sigma_t), medium.albedo, medium.g, unit);
+        forms[name]["decay_length"] =
             channels({medium.decay.x > 0 ? back / medium.decay.x : 0, medium.decay.y > 0 ? back / medium.decay.y : 0,
                       medium.decay.z > 0 ? back / medium.decay.z : 0});
-        if (!medium.doubt.empty()) forms[medium_form_names[form]]["doubt"] = medium.doubt;
+        if (!medium.doubt.empty()) forms[name]["doubt"] = medium.doubt;
     }
     return {{"pack_rate", walked->sample.pack_rate},
             {"mean_radius", walked->sample.mean_radius() * back},
@@ -102,17 +103,17 @@ nlohmann::json describe_media(const SceneDescription& scene, size_t frame, const
     described.integrator.grain_flights.reset();
     described.integrator.shells = false;
     WorldBuilder builder(described);
-    const auto world = builder.build(frame, progress);
+    const BuiltFrame built = builder.build(frame, progress);
+    const World* const world = built.world.get();
     const double unit = world->space.length(1);
     json media = json::array();
     for (const MediumRegion& region : world->regions) {
         json medium;
-        if (region.homogeneous) {
-            medium = describe(region.homogeneous->sigma_t(), V3d(region.homogeneous->albedo()),
-                              region.homogeneous->phase().mean_cosine(), unit);
+        if (const HomogeneousMedium* const uniform = region.medium->uniform()) {
+            medium = describe(uniform->sigma_t(), V3d(uniform->albedo()), uniform->phase().mean_cosine(), unit);
         } else {
-            const Imath::Box3d box = region.grid->bounds();
-            medium["largest_sigma_t"] = region.grid->largest_sigma_t() * unit;
+            const Imath::Box3d box = region.medium->bounds();
+            medium["largest_sigma_t"] = region.medium->largest_sigma_t() * unit;
             const V3d lo = box.isEmpty() ? V3d(0) : world->space.world_point(box.min),
                       hi = box.isEmpty() ? V3d(0) : world->space.world_point(box.max);
             medium["box"] = {{lo.x, lo.y, lo.z}, {hi.x, hi.y, hi.z}};
@@ -122,7 +123,7 @@ nlohmann::json describe_media(const SceneDescription& scene, size_t frame, const
     }
     json description{{"scene", scene.file.string()}, {"media", media}};
     description["grains"] = world->has_grains() ? describe_grains(*world, progress) : json(nullptr);
-    description["warnings"] = builder.warnings();
+    description["warnings"] = built.warnings;
     return description;
 }
 
@@ -152,7 +153,7 @@ std::string text_of_media(const nlohmann::json& description)
             text += fmt::format("    {:<28} {:.6g} +- {:.2g}\n", label, walk[key]["value"].get<double>(),
                                 walk[key]["standard_error"].get<double>());
         }
-        for (const std::string& form : medium_form_names) {
+        for (const std::string& form : medium_form_names.words()) {
             text += fmt::format("    form {}{}\n", form, form == "decay" ? " (the default)" : "") +
                     text_of_medium(grains["forms"][form], "      ");
             if (grains["forms"][form].contains("doubt"))

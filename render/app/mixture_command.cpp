@@ -103,7 +103,7 @@ void preview(PreviewOptions options)
     if (dump.empty()) throw InputError("scree mixture preview", "no dump", "MIXTURE and DUMP, or a scene that has one");
     const std::vector<std::string> any;
     const MixtureDescription mixture = read_mixture_file(file, scene ? scene->types : any);
-    const DumpReadOptions reading =
+    const ParticleReadOptions reading =
         options.radii.empty() && scene ? scene->reading : parse_radius_options(options.radii);
     SliceOptions slices;
     if (!options.at.empty()) slices.at = parse_place(options.at);

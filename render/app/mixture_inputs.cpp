@@ -21,7 +21,7 @@ int32_t type_number(const std::string& key, const JsonValue& where)
     return static_cast<int32_t>(*number);
 }
 
-size_t frame_number(const DumpSeries& series, int64_t frame, const std::string& dump)
+size_t frame_number(const ParticleSeries& series, int64_t frame, const std::string& dump)
 {
     const auto count = static_cast<int64_t>(series.frame_count());
     const int64_t at = frame < 0 ? frame + count : frame;
@@ -69,9 +69,10 @@ SceneGrains read_scene_grains(const std::filesystem::path& file)
 }
 
 TypedFrame evaluate_mixture(const MixtureDescription& mixture, const std::optional<SceneGrains>& scene,
-                            const std::string& dump, const DumpReadOptions& reading, int64_t frame)
+                            const std::string& dump, const ParticleReadOptions& reading, int64_t frame)
 {
-    const DumpSeries series = DumpSeries::open(dump);
+    const OpenedParticles opened = open_particles(dump);
+    const ParticleSeries& series = *opened.series;
     if (series.frame_count() == 0) throw InputError(dump, "no frames", "a dump with at least one frame");
     const size_t at = frame_number(series, frame, dump);
     TypedFrame result;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ingest/particles/dump_series.h"
+#include "ingest/particles/particle_series.h"
 #include "mixtures/mixture_description.h"
 
 #include <filesystem>
@@ -16,7 +16,7 @@ struct SceneGrains {
     std::vector<std::string> types;
     std::map<int32_t, std::string> file_types; ///< dump's number -> grain type
     std::string dump; ///< pattern; empty: the scene has no dump
-    DumpReadOptions reading;
+    ParticleReadOptions reading;
 };
 
 /// Whether the JSON file is a scene with grains, and not a mixture.
@@ -38,6 +38,6 @@ struct TypedFrame {
 /// scene: nothing, and then the types are those that the mixture names, or "type N" of the dump. frame: from the end
 /// when negative. Throws InputError.
 TypedFrame evaluate_mixture(const MixtureDescription& mixture, const std::optional<SceneGrains>& scene,
-                            const std::string& dump, const DumpReadOptions& reading, int64_t frame);
+                            const std::string& dump, const ParticleReadOptions& reading, int64_t frame);
 
 } // namespace scree

@@ -1,28 +1,30 @@
 #include "render/app/option_values.h"
 
 #include "base/error.h"
-#include "base/text.h"
+
+#include <CLI/CLI.hpp>
 
 namespace scree {
 
-std::pair<int, int> parse_picture_size(const std::string& text)
+void add_override_option(CLI::App& command, std::vector<SceneOverride>& overrides)
 {
-    constexpr int64_t most = 65536;
-    const size_t x = text.find('x');
-    const auto width = to_int64(text.substr(0, x));
-    const auto height = x == std::string::npos ? std::nullopt : to_int64(text.substr(x + 1));
-    if (!width || !height || *width < 1 || *height < 1 || *width > most || *height > most) {
-        throw InputError("--size", "'" + text + "'", "WIDTHxHEIGHT, e.g. 640x480, whole numbers in 1..65536");
-    }
-    return {static_cast<int>(*width), static_cast<int>(*height)};
+    const auto take = [&overrides](const std::vector<std::string>& items) {
+        for (const std::string& item : items) {
+            const size_t equals = item.find('=');
+            if (equals == std::string::npos || equals == 0)
+                throw InputError("-D", "'" + item + "'", "key=value, e.g. camera.fov=40");
+            overrides.push_back({item.substr(0, equals), item.substr(equals + 1), ""});
+        }
+    };
+    command.add_option_function<std::vector<std::string>>("-D", take, "Replace a value of the scene: -D camera.fov=40");
 }
 
-std::pair<std::string, std::string> parse_override(const std::string& text)
+void add_scene_switch(CLI::App& command, const SceneSwitch& scene_switch, std::vector<SceneOverride>& switches)
 {
-    const size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0)
-        throw InputError("-D", "'" + text + "'", "key=value, e.g. camera.fov=40");
-    return {text.substr(0, equals), text.substr(equals + 1)};
+    const auto take = [&switches, scene_switch](const std::string& text) {
+        for (const SceneOverride& value : scene_switch.overrides(text)) switches.push_back(value);
+    };
+    command.add_option_function<std::string>(scene_switch.flag, take, scene_switch.help)->join(',');
 }
 
 } // namespace scree

@@ -1,16 +1,20 @@
 #pragma once
 
+#include "render/scene/load_scene.h"
+
 #include <string>
-#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace scree {
 
-// Values of options that several commands have; each throws InputError that names the option.
+/// Adds -D key=value, which replaces a value of the scene.
+void add_override_option(CLI::App& command, std::vector<SceneOverride>& overrides);
 
-/// --size WIDTHxHEIGHT, 1 to 65536 pixels each.
-std::pair<int, int> parse_picture_size(const std::string& text);
-
-/// -D key=value: a path in the scene and JSON.
-std::pair<std::string, std::string> parse_override(const std::string& text);
+/// Adds a flag of scene_switches(): what is given with it goes to `switches`.
+void add_scene_switch(CLI::App& command, const SceneSwitch& scene_switch, std::vector<SceneOverride>& switches);
 
 } // namespace scree

@@ -4,7 +4,7 @@
 #include "base/console_progress.h"
 #include "base/error.h"
 #include "base/text.h"
-#include "ingest/particles/dump_series.h"
+#include "ingest/particles/particle_series.h"
 #include "ingest/particles/vdb_points.h"
 #include "packing/report/packing_report.h"
 #include "packing/report/report_page.h"
@@ -78,7 +78,8 @@ ParticleFrame read_points(const std::string& file, PackingSource& source)
 
 ParticleFrame read_dump(const ReportArguments& a, PackingSource& source, const Progress& progress)
 {
-    const DumpSeries series = DumpSeries::open(a.packing[0], progress);
+    const OpenedParticles opened = open_particles(a.packing[0], progress);
+    const ParticleSeries& series = *opened.series;
     const int64_t count = static_cast<int64_t>(series.frame_count()), wanted = a.frame < 0 ? count + a.frame : a.frame;
     if (wanted < 0 || wanted >= count)
         throw InputError("--frame", fmt::format("{}", a.frame),
@@ -86,7 +87,7 @@ ParticleFrame read_dump(const ReportArguments& a, PackingSource& source, const P
     const size_t frame = static_cast<size_t>(wanted);
     for (const std::string& warning : series.warnings()) source.notes.push_back(warning);
     ParticleFrame particles = series.read(frame, parse_radius_options(a.radii), progress);
-    source.facts.emplace_back("format", "LAMMPS dump");
+    source.facts.emplace_back("format", opened.format->title);
     source.facts.emplace_back("frame", fmt::format("{} of {}, step {}", frame, count, particles.step));
     if (particles.time) source.facts.emplace_back("time", fmt::format("{:g}", *particles.time));
     if (!particles.units.empty()) source.facts.emplace_back("units", particles.units);
@@ -135,7 +136,8 @@ void run_report(ReportArguments a)
     const Progress& progress = console.progress();
     PackingSource source;
     source.file = a.packing[0];
-    const bool points = lower_case(std::filesystem::path(a.packing[0]).extension().string()) == ".vdb";
+    const bool points = std::filesystem::is_regular_file(a.packing[0]) &&
+                        std::string_view(format_of(a.packing[0]).name) == "vdb"; // it may be a tile
     const ParticleFrame frame = points ? read_points(a.packing[0], source) : read_dump(a, source, progress);
     Solid solid;
     MeshContainer container;

@@ -4,7 +4,7 @@
 #include "base/console_progress.h"
 #include "base/error.h"
 #include "base/text.h"
-#include "ingest/particles/dump_series.h"
+#include "ingest/particles/particle_series.h"
 #include "packing/tiles/packing_tile.h"
 #include "packing/tiles/tile_generator.h"
 #include "packing/tiles/tile_sizes.h"
@@ -49,7 +49,8 @@ std::vector<double> parse_numbers(const std::string& flag, std::string text, cha
 
 ParticleFrame read_frame(const std::string& pattern, const TileJob& job)
 {
-    const DumpSeries series = DumpSeries::open(pattern);
+    const OpenedParticles opened = open_particles(pattern);
+    const ParticleSeries& series = *opened.series;
     for (const std::string& warning : series.warnings()) fmt::print(stderr, "scree pack tile: {}\n", warning);
     const auto count = static_cast<int64_t>(series.frame_count());
     const int64_t frame = job.frame < 0 ? count + job.frame : job.frame;

@@ -25,9 +25,9 @@ std::vector<std::string> split_commas(const std::string& text)
 
 } // namespace
 
-DumpReadOptions parse_radius_options(const std::vector<std::string>& values)
+ParticleReadOptions parse_radius_options(const std::vector<std::string>& values)
 {
-    DumpReadOptions options;
+    ParticleReadOptions options;
     for (const std::string& value : values) {
         for (const std::string& part : split_commas(value)) {
             const size_t equals = part.find('=');

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ingest/particles/dump_series.h"
+#include "ingest/particles/particle_series.h"
 
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@ namespace scree {
 
 /// The values of `--radius`: `R` for all types, `TYPE=R` for one; both may come together and separated by commas.
 /// Throws InputError.
-DumpReadOptions parse_radius_options(const std::vector<std::string>& values);
+ParticleReadOptions parse_radius_options(const std::vector<std::string>& values);
 
 /// Moves words like `2=0.7` from the end of the files to the radii: what follows `--radius 1=0.5` on a command line.
 void take_radii_from_files(std::vector<std::string>& files, std::vector<std::string>& radii);

@@ -60,9 +60,7 @@ FrameRange parse_frames(const std::string& text)
 }
 
 struct Arguments {
-    std::string integrator, accuracy, medium_form, stf_form, shells, size, crop, pixels, frames, debug,
-        strategy = "both";
-    std::vector<std::string> overrides, aov;
+    std::string crop, pixels, frames, debug, strategy = direct_light_names[DirectLight::both];
     std::optional<double> error;
     RenderJob job;
 };
@@ -70,7 +68,6 @@ struct Arguments {
 void take_over(Arguments& a)
 {
     RenderJob& job = a.job;
-    if (!a.size.empty()) job.size = parse_picture_size(a.size);
     if (!a.crop.empty()) {
         const auto n = split_numbers(a.crop, ',', 4, "--cropwindow", "x0,x1,y0,y1 in 0..1");
         if (n[0] < 0 || n[1] > 1 || n[0] >= n[1] || n[2] < 0 || n[3] > 1 || n[2] >= n[3]) {
@@ -99,25 +96,7 @@ void take_over(Arguments& a)
             throw InputError("--debug-sample", "'" + a.debug + "'", "a pixel of the picture");
         job.debug_sample = SamplePlace{static_cast<int>(n[0]), static_cast<int>(n[1]), static_cast<uint32_t>(n[2])};
     }
-    for (const std::string& item : a.overrides) job.overrides.push_back(parse_override(item));
-    for (const std::string& name : a.aov) {
-        const auto it = std::find(aov_names.begin(), aov_names.end(), name);
-        if (it == aov_names.end()) {
-            throw InputError("--aov", "'" + name + "'", fmt::format("one of {}", fmt::join(aov_names, ", ")));
-        }
-        job.aov.push_back(static_cast<Aov>(it - aov_names.begin()));
-    }
-    const auto place_of = [](const std::vector<std::string>& names, const std::string& name) {
-        return std::find(names.begin(), names.end(), name) - names.begin();
-    };
-    if (!a.integrator.empty()) job.integrator = static_cast<IntegratorKind>(place_of(integrator_names, a.integrator));
-    if (!a.accuracy.empty()) job.accuracy = static_cast<Accuracy>(place_of(accuracy_names, a.accuracy));
-    if (!a.medium_form.empty())
-        job.medium_form = static_cast<EquivalentForm>(place_of(medium_form_names, a.medium_form));
-    if (!a.stf_form.empty()) job.stf_form = static_cast<StfForm>(place_of(stf_form_names, a.stf_form));
-    if (!a.shells.empty()) job.shells = a.shells == "on";
-    const std::vector<std::string> strategies{"both", "lights", "scattering"};
-    job.options.path.direct_light = static_cast<DirectLight>(place_of(strategies, a.strategy));
+    job.options.path.direct_light = *direct_light_names.find(a.strategy);
 }
 
 } // namespace
@@ -139,68 +118,23 @@ void add_render_command(CLI::App& app)
         "Stop at this relative error of the picture, 0.02 for 2 %; noisy parts get more samples, --spp is the most");
     command->add_option("--timeout", job.options.timeout, "Stop after this many seconds of rendering a frame")
         ->check(CLI::PositiveNumber);
-    command
-        ->add_option("--integrator", a.integrator,
-                     "auto (the rest joined as the scene and --accuracy ask), ept (grains as they are), ppt (grains "
-                     "averaged over rotations), vpt (a medium in place of grains) or stf (the same, through shells)")
-        ->check(CLI::IsMember(integrator_names));
-    command->add_option("--accuracy", a.accuracy, "How far approximations may go: reference, high, standard or draft")
-        ->check(CLI::IsMember(accuracy_names));
-    command
-        ->add_option("--grain-depth", job.grain_depth,
-                     "How many mean radii below every face a medium stands for the grains (default: auto by "
-                     "--accuracy, ept and ppt nowhere)")
-        ->check(CLI::NonNegativeNumber);
-    command
-        ->add_option("--grain-flights", job.grain_flights,
-                     "Below every face, no fewer mean free paths of that medium (default: 0, auto by --accuracy)")
-        ->check(CLI::NonNegativeNumber);
-    command
-        ->add_option("--medium-form", a.medium_form,
-                     "How the medium of the grains is made: plain, formula, walk or decay (default)")
-        ->check(CLI::IsMember(medium_form_names));
-    command
-        ->add_option("--shells", a.shells,
-                     "Whether light goes through shells in media: on or off (default: on with auto and stf)")
-        ->check(CLI::IsMember({"on", "off"}));
-    command
-        ->add_option("--least-shell", job.least_shell,
-                     "Mean free paths that the largest shell of a medium has at least, else it gets none (default: 1; "
-                     "auto 8, and in grids where shells save work)")
-        ->check(CLI::NonNegativeNumber);
-    command
-        ->add_option("--stf-form", a.stf_form,
-                     "How shells are taken: full (default), cosine, hg, interpolated or diffusion")
-        ->check(CLI::IsMember(stf_form_names));
-    command->add_option(
-        "--explicit-grains", job.explicit_grains,
-        "With auto and ppt: how many grains of a path are traced as they are (default: auto by --accuracy, ppt 0)");
-    command
-        ->add_option("--grain-pixels", job.grain_pixels,
-                     "Grains that look narrower than so many pixels are proxies from the first on (default: 0, auto by "
-                     "--accuracy)")
-        ->check(CLI::NonNegativeNumber);
+    for (const SceneSwitch& scene_switch : scene_switches()) add_scene_switch(*command, scene_switch, job.switches);
     command->add_option("--frames", a.frames,
                         "Frames to render, counted from 0: A, A:B or A:B:STEP, B included (default: the first)");
-    command->add_option("--size", a.size, "Size of the picture, WIDTHxHEIGHT");
     command->add_option("--cropwindow", a.crop, "Render only x0,x1,y0,y1 of the picture, in 0..1");
     command->add_option("--pixelbounds", a.pixels, "Render only pixels x0,x1,y0,y1 (x1 and y1 excluded)");
-    command->add_option("--aov", a.aov, "More channels: albedo,normal,depth,type,id,variance,samples")->delimiter(',');
     command->add_option("-t,--threads", job.threads, "Threads (default: all cores)")->check(CLI::Range(1, 4096));
     command->add_option("--seed", job.options.seed, "Seed of the random numbers")->check(CLI::NonNegativeNumber);
-    command->add_option("--max-depth", job.max_depth,
-                        "Cut paths after this many scattering events (a shell of a medium is one); darkens the picture "
-                        "(default: never)");
     command
         ->add_option("--direct-light", a.strategy, "How direct light is found: both, lights or scattering; for tests")
-        ->check(CLI::IsMember({"both", "lights", "scattering"}));
+        ->check(CLI::IsMember(direct_light_names.words()));
     command->add_flag("--resume", job.resume,
                       "Go on from the checkpoint that an interrupted render of the same picture left");
     command->add_flag("--plan", job.plan_only, "Say what would be built and what is skipped, and render nothing");
     command->add_flag("--stats", job.stats, "Print statistics at the end");
     command->add_option("--stats-json", job.stats_json, "Write statistics to a JSON file");
     command->add_option("--debug-sample", a.debug, "Trace one sample again, x,y,sample, and print every vertex");
-    command->add_option("-D", a.overrides, "Replace a value of the scene: -D camera.fov=40");
+    add_override_option(*command, job.overrides);
     command->add_flag("-q,--quiet", job.quiet, "No progress, no remarks");
     command->callback([arguments] {
         take_over(*arguments);

@@ -48,10 +48,10 @@ struct Subject {
 
 Accuracy read_accuracy(const std::string& name)
 {
-    const auto at = std::ranges::find(accuracy_names, name);
-    if (at == accuracy_names.end())
-        throw InputError("--accuracy", in_quotes(name), join_words(accuracy_names), did_you_mean(name, accuracy_names));
-    return static_cast<Accuracy>(at - accuracy_names.begin());
+    const std::optional<Accuracy> accuracy = accuracy_names.find(name);
+    const std::vector<std::string> words = accuracy_names.words();
+    if (!accuracy) throw InputError("--accuracy", in_quotes(name), join_words(words), did_you_mean(name, words));
+    return *accuracy;
 }
 
 void check_numbers(const Arguments& a)

@@ -11,44 +11,51 @@ namespace scree {
 
 namespace {
 
-/// The places of comma-separated names in a list.
-std::vector<size_t> places_of(const std::string& text, const std::vector<std::string>& names, const std::string& option)
+/// The values of comma-separated names.
+template <class E>
+std::vector<E> values_of(const std::string& text, const EnumNames<E>& names, const std::string& option)
 {
-    std::vector<size_t> places;
+    const std::string expected = fmt::format("names of {}", fmt::join(names.words(), ", "));
+    std::vector<E> values;
     std::istringstream in(text);
     for (std::string word; std::getline(in, word, ',');) {
-        const auto it = std::ranges::find(names, word);
-        if (it == names.end())
-            throw InputError(
-                option, "'" + word + "'",
-                fmt::format("names of {}, separated by commas{}", fmt::join(names, ", "), did_you_mean(word, names)));
-        const auto place = static_cast<size_t>(it - names.begin());
-        if (std::ranges::find(places, place) != places.end())
+        const std::optional<E> value = names.find(word);
+        if (!value)
+            throw InputError(option, "'" + word + "'",
+                             expected + ", separated by commas" + did_you_mean(word, names.words()));
+        if (std::ranges::find(values, *value) != values.end())
             throw InputError(option, "'" + word + "' twice", "every name once");
-        places.push_back(place);
+        values.push_back(*value);
     }
-    if (places.empty()) throw InputError(option, "nothing", fmt::format("names of {}", fmt::join(names, ", ")));
-    return places;
+    if (values.empty()) throw InputError(option, "nothing", expected);
+    return values;
 }
 
 } // namespace
 
+BenchMethod bench_method(IntegratorKind kind, std::optional<Accuracy> accuracy)
+{
+    BenchMethod method{integrator_names[kind], switch_overrides("--integrator", integrator_names[kind])};
+    if (!accuracy) return method;
+    method.name += " " + accuracy_names[*accuracy];
+    for (const SceneOverride& value : switch_overrides("--accuracy", accuracy_names[*accuracy]))
+        method.switches.push_back(value);
+    return method;
+}
+
 std::vector<BenchMethod> parse_methods(const std::string& integrators, const std::string& accuracies)
 {
-    std::vector<size_t> levels;
-    if (!accuracies.empty()) levels = places_of(accuracies, accuracy_names, "--accuracy");
+    std::vector<Accuracy> levels;
+    if (!accuracies.empty()) levels = values_of(accuracies, accuracy_names, "--accuracy");
     std::vector<BenchMethod> methods;
     bool has_auto = false;
-    for (const size_t place : places_of(integrators, integrator_names, "--integrators")) {
-        const auto kind = static_cast<IntegratorKind>(place);
+    for (const IntegratorKind kind : values_of(integrators, integrator_names, "--integrators")) {
         has_auto = has_auto || kind == IntegratorKind::automatic;
         if (kind != IntegratorKind::automatic || levels.empty()) {
-            methods.push_back({integrator_names[place], kind, std::nullopt});
+            methods.push_back(bench_method(kind));
             continue;
         }
-        for (const size_t level : levels) {
-            methods.push_back({"auto " + accuracy_names[level], kind, static_cast<Accuracy>(level)});
-        }
+        for (const Accuracy level : levels) methods.push_back(bench_method(kind, level));
     }
     if (!levels.empty() && !has_auto)
         throw InputError("--accuracy", accuracies, "auto among the integrators: no other has an accuracy",
@@ -59,8 +66,7 @@ std::vector<BenchMethod> parse_methods(const std::string& integrators, const std
 RenderJob render_job_of(const BenchJob& job, const BenchMethod& method)
 {
     RenderJob render = job.scene;
-    if (method.integrator) render.integrator = method.integrator;
-    if (method.accuracy) render.accuracy = method.accuracy;
+    render.switches.insert(render.switches.end(), method.switches.begin(), method.switches.end());
     return render;
 }
 

@@ -12,9 +12,11 @@ namespace scree {
 /// A way to render a scene that is held against others.
 struct BenchMethod {
     std::string name; ///< e.g. "ppt" or "auto draft"
-    std::optional<IntegratorKind> integrator; ///< else the scene's, as the next
-    std::optional<Accuracy> accuracy;
+    std::vector<SceneOverride> switches; ///< of the scene's; none: as the scene has it
 };
+
+/// An integrator, and with auto perhaps an accuracy.
+BenchMethod bench_method(IntegratorKind kind, std::optional<Accuracy> accuracy = {});
 
 /// What `scree bench` was asked to do with one scene.
 struct BenchJob {
@@ -26,7 +28,7 @@ struct BenchJob {
     size_t seeds = 4; ///< independent pictures of each method, at least 2
     std::filesystem::path reference; ///< a picture to compare with; empty: one is rendered
     double reference_seconds = 60; ///< as `seconds`, of the reference
-    BenchMethod reference_method{"ept", IntegratorKind::ept, std::nullopt};
+    BenchMethod reference_method = bench_method(IntegratorKind::ept);
     std::filesystem::path folder; ///< for what is written
     bool quiet = false;
 };

@@ -80,7 +80,7 @@ std::string json_of(const BenchResult& result)
     const BenchJob& job = result.job;
     json methods = json::array(), overrides = json::object();
     for (const MethodResult& m : result.methods) methods.push_back(method_json(m, result));
-    for (const auto& [path, value] : job.scene.overrides) overrides[path] = value;
+    for (const SceneOverride& value : job.scene.overrides) overrides[value.path] = value.json;
     const json reference{{"name", r.name},
                          {"spp", r.samples},
                          {"processor_seconds", r.processor_seconds},

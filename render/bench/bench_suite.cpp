@@ -32,15 +32,14 @@ BenchJob read_job(const JsonValue& json, double scale)
     if (const auto frame = object.find("frame")) job.frame = static_cast<size_t>(frame->integer(0, 1000000000));
     if (const auto size = object.find("size")) {
         const auto sides = size->array(2, 2);
-        job.scene.size = {static_cast<int>(sides[0].integer(1, 65536)), static_cast<int>(sides[1].integer(1, 65536))};
+        job.scene.set("--size", fmt::format("{}x{}", sides[0].integer(1, 65536), sides[1].integer(1, 65536)));
     }
     std::string integrators = "auto,ept", accuracy;
-    if (const auto value = object.find("integrators")) integrators = names_of(*value, integrator_names);
-    if (const auto value = object.find("accuracy")) accuracy = names_of(*value, accuracy_names);
+    if (const auto value = object.find("integrators")) integrators = names_of(*value, integrator_names.words());
+    if (const auto value = object.find("accuracy")) accuracy = names_of(*value, accuracy_names.words());
     job.methods = parse_methods(integrators, accuracy);
     if (const auto value = object.find("reference_integrator")) {
-        const size_t kind = value->choice(integrator_names);
-        job.reference_method = {integrator_names[kind], static_cast<IntegratorKind>(kind), std::nullopt};
+        job.reference_method = bench_method(value->choice(integrator_names));
     }
     if (const auto value = object.find("time")) job.seconds = value->number(1e-3, 1e7);
     if (const auto value = object.find("reference_time")) job.reference_seconds = value->number(1e-3, 1e7);

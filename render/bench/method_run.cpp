@@ -52,16 +52,16 @@ MethodRun::MethodRun(const BenchJob& job, const BenchMethod& method, uint64_t fi
         throw InputError("--frame", std::to_string(job.frame),
                          "0 to " + std::to_string(builder_->frame_count() - 1) + ": the frames that the dump has");
     }
-    std::shared_ptr<const World> world = builder_->build(job.frame, progress);
+    const BuiltFrame built = builder_->build(job.frame, progress);
     if (progress.cancelled()) throw Cancelled();
-    setup_ = std::make_unique<RenderSetup>(*builder_, std::move(world), render);
+    setup_ = std::make_unique<RenderSetup>(*builder_, built, render);
     setup_time_ = split(setup_->parts(), meter.time());
     memory_ = memory.peak();
-    plan_name_ = builder_->plan().name();
-    warnings_ = builder_->warnings();
+    plan_name_ = built.plan.name();
+    scene_hash_ = built.hash;
+    warnings_ = built.warnings;
     const IntegratorDescription& integrator = builder_->scene().integrator;
-    if (integrator.kind == IntegratorKind::automatic)
-        name_ = "auto " + accuracy_names[static_cast<size_t>(integrator.accuracy)];
+    if (integrator.kind == IntegratorKind::automatic) name_ = "auto " + accuracy_names[integrator.accuracy];
     films_.assign(pictures, empty_film());
     times_.resize(pictures);
 }

@@ -29,7 +29,7 @@ public:
 
     const std::string& name() const { return name_; } ///< of auto with its accuracy
     const std::string& plan_name() const { return plan_name_; } ///< what the integrator does, in a word
-    uint64_t scene_hash() const { return builder_->scene_hash(); }
+    uint64_t scene_hash() const { return scene_hash_; }
     const SetupTime& setup_time() const { return setup_time_; }
     uint64_t memory() const { return memory_; } ///< bytes at its peak, above what there was before
     uint64_t grains() const { return setup_->world().grain_count() + setup_->world().replaced_grains; }
@@ -58,7 +58,7 @@ public:
 private:
     std::string name_, plan_name_;
     std::vector<std::string> warnings_;
-    uint64_t first_seed_;
+    uint64_t first_seed_, scene_hash_ = 0;
     std::unique_ptr<WorldBuilder> builder_;
     std::unique_ptr<RenderSetup> setup_;
     SetupTime setup_time_;

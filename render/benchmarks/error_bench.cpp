@@ -87,10 +87,10 @@ try {
         {"scene", "asked", "true", "claimed", "reference", "samples", "uniform", "seconds", "uniform", "ratio"}};
     for (BenchJob job : read_suite(argument(1, "examples/bench/suite.json"), 1)) {
         if (argc > 6 && job.title != argv[6]) continue;
-        if (job.scene.size)
-            job.scene.size = std::pair(static_cast<int>(job.scene.size->first * size),
-                                       static_cast<int>(job.scene.size->second * size));
-        MethodRun run(job, {"as it is", std::nullopt, std::nullopt}, mix64(1000), 2, Progress());
+        const FilmDescription film = load_scene(job.scene).film;
+        const auto scaled = [size](int pixels) { return static_cast<int>(pixels * size); };
+        job.scene.set("--size", fmt::format("{}x{}", scaled(film.width), scaled(film.height)));
+        MethodRun run(job, {"as it is", {}}, mix64(1000), 2, Progress());
         std::vector<Adaptive> adaptives;
         for (const double error : errors) adaptives.push_back({error, 0, 0, 0, {}});
         const double each = reference_seconds * this_machine(0).threads / static_cast<double>(pictures * errors.size());

@@ -8,6 +8,7 @@
 #include "render/grains/library/grain_library.h"
 #include "render/gsdf/gsdf_builder.h"
 #include "render/integrators/path_tracer.h"
+#include "render/media/homogeneous_medium.h"
 #include "render/scene/scene_description.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
@@ -15,6 +16,8 @@
 #include "tests/builders/tile_beds.h"
 
 #include <fmt/format.h>
+
+#include <map>
 #include <tbb/parallel_for.h>
 
 #include <cstdlib>
@@ -36,7 +39,7 @@ MediumRegion region(const V3d& lo, const V3d& hi, const ContinuousEquivalent& me
     const TriangleMesh mesh = box_mesh(lo, hi);
     MediumRegion region{"slab", {}, mesh.triangles, nullptr, nullptr, nullptr, true};
     for (const V3d& p : mesh.positions) region.positions.emplace_back(p);
-    region.homogeneous = std::make_shared<HomogeneousMedium>(V3d(medium.sigma_t), Color(V3f(medium.albedo)), medium.g);
+    region.medium = std::make_shared<HomogeneousMedium>(V3d(medium.sigma_t), Color(V3f(medium.albedo)), medium.g);
     return region;
 }
 
@@ -152,15 +155,14 @@ int main(int argc, char** argv)
             options.start_radius = 0.2 * bed.half();
             options.safe_radius = 0.95 * bed.half();
             const PackingWalk walk = walk_packing(bed.world(), bed.tracer(), options);
-            std::vector<ContinuousEquivalent> forms;
-            for (const EquivalentForm form :
-                 {EquivalentForm::plain, EquivalentForm::formula, EquivalentForm::walk, EquivalentForm::decay}) {
-                forms.push_back(continuous_equivalent(mixture, form, &walk));
-            }
+            std::map<EquivalentForm, ContinuousEquivalent> forms;
+            for (const auto& [form, name] : medium_form_names)
+                forms[form] = continuous_equivalent(mixture, form, &walk);
+            const ContinuousEquivalent &plain = forms[EquivalentForm::plain], &walked = forms[EquivalentForm::walk];
             fmt::print("{}, f {}, {} radii thick; walk {:.2f} s: sigma_t {:.4f} g {:.4f} albedo {:.5f} -> {:.5f}; "
                        "plain {:.4f} {:.4f}\n",
-                       type.name, f, thickness, walk.seconds, forms[2].sigma_t, forms[2].g, forms[2].albedo.x,
-                       forms[3].albedo.x, forms[0].sigma_t, forms[0].g);
+                       type.name, f, thickness, walk.seconds, walked.sigma_t, walked.g, walked.albedo.x,
+                       forms[EquivalentForm::decay].albedo.x, plain.sigma_t, plain.g);
             const auto grains = make_slab(thickness, f, type, nullptr, 0);
             for (const double cosine : cosines) {
                 const Figures exact = shine(*grains, thickness, 2 * paths, cosine, as_they_are, 1);
@@ -168,14 +170,14 @@ int main(int argc, char** argv)
                     "  incidence {}:              R {:.5f} +- {:.5f}        T {:.5f} +- {:.5f}          {:6.2f} s\n",
                     cosine, exact.reflected.mean(), exact.reflected.standard_error(), exact.passed.mean(),
                     exact.passed.standard_error(), exact.seconds);
-                for (size_t form = 0; form < forms.size(); ++form) {
-                    print_row("medium alone, " + medium_form_names[form],
+                for (const auto& [form, name] : medium_form_names) {
+                    print_row("medium alone, " + name,
                               shine(*make_slab(thickness, f, type, &forms[form], -1), thickness, paths, cosine, 0, 2),
                               exact);
                 }
                 for (const double depth : depths) {
                     if (2 * depth >= thickness) continue;
-                    for (const size_t form : {size_t{2}, size_t{3}}) {
+                    for (const EquivalentForm form : {EquivalentForm::walk, EquivalentForm::decay}) {
                         print_row(
                             fmt::format("grains to {} r, {}", depth, medium_form_names[form]),
                             shine(*make_slab(thickness, f, type, &forms[form], depth), thickness, paths, cosine, 0, 3),

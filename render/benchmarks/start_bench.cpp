@@ -32,7 +32,7 @@ double setup_seconds(const SceneDescription& scene)
 {
     const Stopwatch watch;
     WorldBuilder builder(scene);
-    const auto world = builder.build(0);
+    const auto world = builder.build(0).world;
     const Tracer tracer(builder.device(), *world);
     return watch.seconds();
 }

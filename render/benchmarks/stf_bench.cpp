@@ -57,7 +57,7 @@ public:
         for (const V3d& p : mesh.positions) box.extendBy(p);
         MediumRegion region{"statue", {}, mesh.triangles, nullptr, nullptr, nullptr};
         for (const V3d& p : mesh.positions) region.positions.emplace_back((p - box.center()) / box.size().z);
-        region.homogeneous = std::make_shared<HomogeneousMedium>(V3d(1), Color(1), 0.0);
+        region.medium = std::make_shared<HomogeneousMedium>(V3d(1), Color(1), 0.0);
         world.regions.push_back(std::move(region));
         Light sky, sun;
         sun.kind = LightKind::distant;
@@ -244,10 +244,10 @@ void run_row(Scene& scene, const std::vector<StfForm>& forms, StfCache& cache, d
         scene.world.regions[0].shells = nullptr;
         add_shells({form}, cache, scene.world, parts, remarks, Progress());
         for (const PartReport& part : parts)
-            fmt::print("  {}: {}; {:.2f} s, {:.1f} MB\n", stf_form_names[static_cast<size_t>(form)], part.reason,
-                       part.seconds, 1e-6 * static_cast<double>(part.bytes));
-        pictures.emplace_back(stf_form_names[static_cast<size_t>(form)], scene.world.regions[0].shells,
-                              2 + static_cast<uint64_t>(form), scene.pixels.size());
+            fmt::print("  {}: {}; {:.2f} s, {:.1f} MB\n", stf_form_names[form], part.reason, part.seconds,
+                       1e-6 * static_cast<double>(part.bytes));
+        pictures.emplace_back(stf_form_names[form], scene.world.regions[0].shells, 2 + static_cast<uint64_t>(form),
+                              scene.pixels.size());
     }
     Picture reference("reference", nullptr, 100, scene.pixels.size());
     for (int turn = 0; turn < turns; ++turn) {
@@ -271,15 +271,16 @@ int main(int argc, char** argv)
                      reference_seconds = std::atof(argument(5, "30").c_str());
         std::vector<StfForm> forms;
         for (const std::string& word : words(argument(4, "full,cosine,hg,interpolated,diffusion"))) {
-            const auto name = std::ranges::find(stf_form_names, word);
-            if (name == stf_form_names.end())
-                throw InputError("forms", word, "of " + fmt::format("{}", fmt::join(stf_form_names, ", ")));
-            forms.push_back(static_cast<StfForm>(name - stf_form_names.begin()));
+            const std::optional<StfForm> form = stf_form_names.find(word);
+            if (!form)
+                throw InputError("forms", word, "of " + fmt::format("{}", fmt::join(stf_form_names.words(), ", ")));
+            forms.push_back(*form);
         }
-        const auto accuracy = std::ranges::find(accuracy_names, argument(7, "standard"));
-        if (accuracy == accuracy_names.end())
-            throw InputError("accuracy", argument(7, ""), "of " + fmt::format("{}", fmt::join(accuracy_names, ", ")));
-        StfCache cache(cache_folder(), stf_options(static_cast<Accuracy>(accuracy - accuracy_names.begin())));
+        const std::optional<Accuracy> accuracy = accuracy_names.find(argument(7, "standard"));
+        if (!accuracy)
+            throw InputError("accuracy", argument(7, ""),
+                             "of " + fmt::format("{}", fmt::join(accuracy_names.words(), ", ")));
+        StfCache cache(cache_folder(), stf_options(*accuracy));
         const auto phase = snow_phase();
         fmt::print("mean cosine of the phase function {:.4f}\n", phase->mean_cosine());
         Scene scene(argc > 8 ? read_closed_mesh(argv[8], "it is filled with a medium") : statue_mesh(),
@@ -290,7 +291,7 @@ int main(int argc, char** argv)
         for (const std::string& length : words(argument(2, "10,30,100,300,1000"))) {
             for (const std::string& albedo : words(argument(3, "0.99,0.999,1"))) {
                 fmt::print("\n{} mean free paths, albedo {}\n", length, albedo);
-                scene.world.regions[0].homogeneous =
+                scene.world.regions[0].medium =
                     std::make_shared<HomogeneousMedium>(V3d(std::stod(length)), Color(std::stof(albedo)), phase);
                 run_row(scene, forms, cache, seconds, reference_seconds);
             }

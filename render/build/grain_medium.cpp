@@ -6,6 +6,7 @@
 #include "render/equivalent/grain_field_grids.h"
 #include "render/equivalent/walk_bed.h"
 #include "render/media/grid_medium_build.h"
+#include "render/media/homogeneous_medium.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -283,17 +284,18 @@ std::optional<double> replace_grains(const GrainMedium& medium, const GrainDepth
         uint64_t bytes =
             surface->triangles.size() * sizeof(surface->triangles[0]) + surface->positions.size() * sizeof(V3f);
         if (!world.fill)
-            region.grid = medium_of_list(world, media, progress);
+            region.medium = medium_of_list(world, media, progress);
         else if (is_patterned(world, medium.sample))
-            region.grid = medium_of_fill(world, *surface, media, progress);
+            region.medium = medium_of_fill(world, *surface, media, progress);
         else
-            region.homogeneous = std::make_shared<HomogeneousMedium>(V3d(medium.medium.sigma_t),
-                                                                     Weight(medium.medium.albedo), medium.medium.g);
-        if (region.grid) bytes += region.grid->bytes();
+            region.medium = std::make_shared<HomogeneousMedium>(V3d(medium.medium.sigma_t),
+                                                                Weight(medium.medium.albedo), medium.medium.g);
+        bytes += region.medium->bytes();
         region.positions = std::move(surface->positions);
         region.triangles = std::move(surface->triangles);
         world.regions.push_back(std::move(region));
-        parts.push_back({part, true, how + (world.regions.back().grid ? "as the grains vary" : "the same everywhere"),
+        parts.push_back({part, true,
+                         how + (world.regions.back().medium->uniform() ? "the same everywhere" : "as the grains vary"),
                          watch.seconds(), bytes});
         if (surface->coarsened)
             remarks.push_back(

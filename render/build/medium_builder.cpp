@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "ingest/meshes/mesh_hash.h"
+#include "render/media/homogeneous_medium.h"
 #include "render/media/vdb_medium.h"
 #include "render/trace/region_tracer.h"
 
@@ -86,9 +87,9 @@ std::vector<V3d> MediumBuilder::read()
     return points;
 }
 
-uint64_t MediumBuilder::build(World& world, const TypeRequest& request, uint64_t hash)
+uint64_t MediumBuilder::build(World& world, const BuildContext& context, uint64_t hash)
 {
-    std::vector<PartReport>& parts = request.parts;
+    std::vector<PartReport>& parts = context.parts;
     for (size_t i = 0; i < scene_.media.size(); ++i) {
         const MediumDescription& medium = scene_.media[i];
         const std::string part = "medium '" + name_of(medium) + "'";
@@ -104,25 +105,25 @@ uint64_t MediumBuilder::build(World& world, const TypeRequest& request, uint64_t
         uint64_t bytes = region.triangles.size() * sizeof(region.triangles[0]) + region.positions.size() * sizeof(V3f);
         std::string what = "the same everywhere";
         if (medium.mesh.empty()) {
-            if (request.precompute == Precompute::never) {
+            if (context.precompute == Precompute::never) {
                 parts.push_back({part, true, "to be read"});
                 continue;
             }
             Made& made = grids_[i]; // a film of grains mostly stays in one space
             if (!made.grid || made.space.origin != world.space.origin || made.space.exponent != world.space.exponent) {
                 made = {std::make_shared<GridMedium>(
-                            read_vdb_medium(medium.vdb, vdb_options(medium), world.space, request.progress)),
+                            read_vdb_medium(medium.vdb, vdb_options(medium), world.space, context.progress)),
                         world.space, made.hash};
             }
-            region.grid = made.grid;
-            bytes += region.grid->bytes();
+            region.medium = made.grid;
+            bytes += region.medium->bytes();
             what = "from grids";
             if (made.hash == 0) made.hash = hash_file(medium.vdb, 1);
             hash = mix64(hash ^ made.hash);
         } else {
             const double unit = world.space.world_length(1);
-            warn_if_too_dense(medium, region.bounds(), unit, request.warnings);
-            region.homogeneous = std::make_shared<HomogeneousMedium>(
+            warn_if_too_dense(medium, region.bounds(), unit, context.warnings);
+            region.medium = std::make_shared<HomogeneousMedium>(
                 unit * V3d(medium.sigma_t.x, medium.sigma_t.y, medium.sigma_t.z), medium.albedo, medium.g);
         }
         parts.push_back({part, true, fmt::format("{}, within {} triangles", what, region.triangles.size()),

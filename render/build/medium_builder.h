@@ -4,6 +4,7 @@
 #include "ingest/meshes/triangle_mesh.h"
 #include "render/build/part_report.h"
 #include "render/build/type_builder.h"
+#include "render/media/grid_medium.h"
 #include "render/scene/scene_description.h"
 #include "render/trace/world.h"
 
@@ -30,7 +31,7 @@ public:
             std::ranges::count_if(meshes_, [](const TriangleMesh& mesh) { return !mesh.triangles.empty(); }));
     }
     /// Adds the media to `world`, whose space is set, and a report on each. Returns `hash` with their files mixed in.
-    uint64_t build(World& world, const TypeRequest& request, uint64_t hash);
+    uint64_t build(World& world, const BuildContext& context, uint64_t hash);
 
 private:
     void refuse_overlaps(const World& world) const;

@@ -14,17 +14,17 @@ namespace scree {
 ///
 /// Returns from where on it stands for them, in mean radii below every face; nothing: no medium was made. Throws
 /// InputError, Cancelled.
-std::optional<double> make_planned_medium(const TypeRequest& request, World& world);
+std::optional<double> make_planned_medium(const BuildContext& context, World& world);
 
 /// Gives worlds the shells that are planned for their media; keeps the tables from one to the next.
 class PlannedShells {
 public:
     /// Finds how far places in media are from everything, and the shells that light may go through there; or says that
     /// it would. media: what the scene names. Throws Cancelled.
-    void make(const TypeRequest& request, const MediumBuilder& media, World& world);
+    void make(const BuildContext& context, const MediumBuilder& media, World& world);
 
 private:
-    void say(const TypeRequest& request, const MediumBuilder& media, const World& world) const;
+    void say(const BuildContext& context, const MediumBuilder& media, const World& world) const;
 
     std::unique_ptr<StfCache> cache_;
 };

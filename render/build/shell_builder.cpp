@@ -50,9 +50,8 @@ std::vector<double> g_axis(double low, double high)
 
 StfOptions stf_options(Accuracy accuracy)
 {
-    constexpr int bits[] = {19, 18, 17, 15};
     StfOptions options;
-    options.walks = uint64_t{1} << bits[static_cast<size_t>(accuracy)];
+    options.walks = level_of(accuracy).stf_walks;
     options.records = static_cast<uint32_t>(std::min<uint64_t>(options.records, options.walks));
     return options;
 }
@@ -108,12 +107,13 @@ void add_shells(const ShellChoice& choice, StfCache& cache, World& world, std::v
         double sigma_t, albedo, g_low, g_high;
         std::unique_ptr<MediumPyramid> pyramid;
         const Imath::Box3d box = region.bounds();
-        if (region.homogeneous) {
-            sigma_t = region.homogeneous->sigma_t().x;
-            albedo = max_component(region.homogeneous->albedo());
-            g_low = g_high = region.homogeneous->phase().mean_cosine();
+        const HomogeneousMedium* const uniform = region.medium->uniform();
+        if (uniform) {
+            sigma_t = uniform->sigma_t().x;
+            albedo = max_component(uniform->albedo());
+            g_low = g_high = uniform->phase().mean_cosine();
         } else {
-            pyramid = std::make_unique<MediumPyramid>(*region.grid, box,
+            pyramid = std::make_unique<MediumPyramid>(*region.medium, box,
                                                       region.instead_of_grains ? grain_tolerance : tolerance,
                                                       region.instead_of_grains ? thin_grains : thin, progress);
             const MediumPyramid::Extremes& extremes = pyramid->extremes();
@@ -133,7 +133,8 @@ void add_shells(const ShellChoice& choice, StfCache& cache, World& world, std::v
         }
         std::string forecast;
         if (choice.must_pay && pyramid && !region.instead_of_grains) {
-            const ShellForecast walks = forecast_shells(*region.grid, *pyramid, box, *world.clearance, count, progress);
+            const ShellForecast walks =
+                forecast_shells(*region.medium, *pyramid, box, *world.clearance, count, progress);
             const double work = walks.work(world.lights.any_sampled());
             forecast = fmt::format("in place of {:.0f} % of the scatterings, {:.2g} each, for {:.0f} % of the work",
                                    100 * walks.part(), walks.each(), 100 * work);
@@ -158,9 +159,9 @@ void add_shells(const ShellChoice& choice, StfCache& cache, World& world, std::v
             stfs.push_back(found.stf);
             computed += found.computed;
         };
-        if (region.homogeneous) {
-            add_stf(g_low, choice.form >= StfForm::hg ? nullptr : region.homogeneous->phase_table());
-            region.shells = std::make_shared<MediumShells>(stfs[0], *region.homogeneous, count, choice.form);
+        if (uniform) {
+            add_stf(g_low, choice.form >= StfForm::hg ? nullptr : uniform->phase_table());
+            region.shells = std::make_shared<MediumShells>(stfs[0], *uniform, count, choice.form);
         } else {
             for (const double g : g_axis(g_low, g_high)) add_stf(g, nullptr);
             region.shells = std::make_shared<MediumShells>(stfs, std::move(pyramid), count, choice.form);

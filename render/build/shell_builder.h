@@ -12,7 +12,7 @@
 
 namespace scree {
 
-/// Walks a shell that an accuracy stands for.
+/// With the number of walks that an accuracy asks for.
 StfOptions stf_options(Accuracy accuracy);
 
 /// Distances within the media of a world from all that a ray may meet there, or null where nothing is known: no media,

@@ -14,43 +14,39 @@ ShapeSource shape_source(const GrainTypeDescription& type) { return {type.mesh, 
 
 } // namespace
 
-GsdfOptions gsdf_options(Accuracy accuracy)
-{
-    constexpr double error[] = {0.005, 0.01, 0.03, 0.08};
-    return {.error = error[static_cast<size_t>(accuracy)]};
-}
+GsdfOptions gsdf_options(Accuracy accuracy) { return {.error = level_of(accuracy).gsdf_error}; }
 
 std::shared_ptr<const Exemplar> TypeBuilder::make_exemplar(const GrainTypeDescription& type) const
 {
     return scree::make_exemplar(*device_, shape_source(type), type.material, type.place + "/shape", type.name);
 }
 
-void TypeBuilder::add_exemplar(const GrainTypeDescription& type, Shape& shape, const TypeRequest& request) const
+void TypeBuilder::add_exemplar(const GrainTypeDescription& type, Shape& shape, const BuildContext& context) const
 {
     const std::string part = "exemplar '" + type.name + "'";
     if (!type.has_mesh()) {
-        request.parts.push_back({part, false, "its shape is the bounding sphere itself"});
+        context.parts.push_back({part, false, "its shape is the bounding sphere itself"});
         return;
     }
-    if (!request.plan.has_exemplars()) {
-        request.parts.push_back({part, false, "no grain is traced as it is"});
+    if (!context.plan.has_exemplars()) {
+        context.parts.push_back({part, false, "no grain is traced as it is"});
         return;
     }
     const Stopwatch watch;
     if (!shape.exemplar) shape.exemplar = make_exemplar(type);
     const std::string source = type.library ? fmt::format(" of the library's {}", type.library->name) : "";
-    request.parts.push_back({part, true, fmt::format("{} triangles{}", shape.exemplar->triangle_count(), source),
+    context.parts.push_back({part, true, fmt::format("{} triangles{}", shape.exemplar->triangle_count(), source),
                              watch.seconds(), shape.exemplar->bytes()});
 }
 
-void TypeBuilder::add_gsdf(const GrainTypeDescription& type, Shape& shape, const TypeRequest& request)
+void TypeBuilder::add_gsdf(const GrainTypeDescription& type, Shape& shape, const BuildContext& context)
 {
     const std::string part = "gsdf '" + type.name + "'";
-    if (!request.plan.needs_gsdfs()) {
-        request.parts.push_back({part, false, "no grain is a proxy, and no medium stands for any"});
+    if (!context.plan.needs_gsdfs()) {
+        context.parts.push_back({part, false, "no grain is a proxy, and no medium stands for any"});
         return;
     }
-    const GsdfOptions options = gsdf_options(request.plan.accuracy);
+    const GsdfOptions options = gsdf_options(context.plan.accuracy);
     GsdfSource source{shape.hash, type.material, nullptr};
     if (type.has_mesh()) {
         source.exemplar = [&] {
@@ -62,12 +58,12 @@ void TypeBuilder::add_gsdf(const GrainTypeDescription& type, Shape& shape, const
     std::shared_ptr<const Gsdf>& gsdf = gsdfs_[gsdf_key(source, options)]; // types that differ in colour only share one
     std::string how = "made already, for another type or frame";
     if (!gsdf) {
-        const bool now = request.precompute == Precompute::now;
-        const FoundGsdf found = now ? find_gsdf(source, options, cache_folder(), request.progress)
+        const bool now = context.precompute == Precompute::now;
+        const FoundGsdf found = now ? find_gsdf(source, options, cache_folder(), context.progress)
                                     : stored_gsdf(source, options, cache_folder());
-        if (!found.remark.empty()) request.warnings.push_back(found.remark);
+        if (!found.remark.empty()) context.warnings.push_back(found.remark);
         if (!found.gsdf) {
-            request.parts.push_back(
+            context.parts.push_back(
                 {part, true, fmt::format("to be traced to an error of {:g} %; not in the cache", 100 * options.error)});
             return;
         }
@@ -76,31 +72,31 @@ void TypeBuilder::add_gsdf(const GrainTypeDescription& type, Shape& shape, const
         how = fmt::format("{}, {:.2g} paths, error {:.2g} %", found.computed ? "traced" : "from the cache",
                           static_cast<double>(quality.paths), 100 * quality.density_error);
         if (const std::string doubt = doubt_of(quality, options.error); !doubt.empty()) {
-            request.warnings.push_back(fmt::format("the scattering of '{}': {}", type.name, doubt));
+            context.warnings.push_back(fmt::format("the scattering of '{}': {}", type.name, doubt));
         }
     }
     shape.gsdf = gsdf;
-    request.parts.push_back({part, true, how, watch.seconds(), gsdf->bytes()});
+    context.parts.push_back({part, true, how, watch.seconds(), gsdf->bytes()});
 }
 
 uint64_t TypeBuilder::build(const std::vector<GrainTypeDescription>& types, const std::vector<uint8_t>& used,
-                            const TypeRequest& request, World& world, uint64_t hash)
+                            const BuildContext& context, World& world, uint64_t hash)
 {
     for (size_t i = 0; i < types.size(); ++i) {
         const GrainTypeDescription& type = types[i];
         GrainType made{type.name, {}, nullptr};
         if (!used[i]) { // nor is anything made because its material would need it
             for (const char* part : {"exemplar", "gsdf"})
-                request.parts.push_back({fmt::format("{} '{}'", part, type.name), false, "no grain has this type"});
+                context.parts.push_back({fmt::format("{} '{}'", part, type.name), false, "no grain has this type"});
         } else {
             made.material = type.material;
             made.material.absorption *= static_cast<Real>(world.space.world_length(1));
             const bool is_new = !shapes_.contains(type.name);
             Shape& shape = shapes_[type.name];
             if (is_new) shape.hash = hash_shape(shape_source(type));
-            add_exemplar(type, shape, request);
-            add_gsdf(type, shape, request);
-            if (request.plan.has_exemplars())
+            add_exemplar(type, shape, context);
+            add_gsdf(type, shape, context);
+            if (context.plan.has_exemplars())
                 made.exemplar = shape.exemplar;
             else
                 shape.exemplar = nullptr; // was only needed to trace the GSDF

@@ -18,8 +18,8 @@ namespace scree {
 /// Whether what takes long is made, or only said to be needed (for `--plan`; such a world cannot be rendered).
 enum class Precompute : uint8_t { now, never };
 
-/// How types are to be made, and where to tell of it.
-struct TypeRequest {
+/// What every builder of a frame is given: what is planned, and where to report.
+struct BuildContext {
     const TransportPlan& plan;
     Precompute precompute;
     const Progress& progress;
@@ -27,7 +27,7 @@ struct TypeRequest {
     std::vector<std::string>& warnings;
 };
 
-/// The mean error of directional densities that an accuracy stands for.
+/// With the error that an accuracy asks for.
 GsdfOptions gsdf_options(Accuracy accuracy);
 
 /// Makes the grain types of worlds: exemplars where grains are traced as they are, GSDFs where there are proxies.
@@ -39,7 +39,7 @@ public:
     /// Adds every type to `world` (whose space is set), what is needed of those used, and a report on each part.
     /// Returns `hash` with the shapes mixed in. Throws InputError, or Cancelled.
     uint64_t build(const std::vector<GrainTypeDescription>& types, const std::vector<uint8_t>& used,
-                   const TypeRequest& request, World& world, uint64_t hash);
+                   const BuildContext& context, World& world, uint64_t hash);
 
 private:
     struct Shape {
@@ -48,8 +48,8 @@ private:
         uint64_t hash = 0; ///< of the user's file, or of what the library makes it from; 0: the sphere
     };
     std::shared_ptr<const Exemplar> make_exemplar(const GrainTypeDescription& type) const;
-    void add_exemplar(const GrainTypeDescription& type, Shape& shape, const TypeRequest& request) const;
-    void add_gsdf(const GrainTypeDescription& type, Shape& shape, const TypeRequest& request);
+    void add_exemplar(const GrainTypeDescription& type, Shape& shape, const BuildContext& context) const;
+    void add_gsdf(const GrainTypeDescription& type, Shape& shape, const BuildContext& context);
 
     std::shared_ptr<const EmbreeDevice> device_;
     std::map<std::string, Shape> shapes_; ///< by grain type

@@ -5,7 +5,7 @@
 #include "base/text.h"
 #include "ingest/meshes/mesh_hash.h"
 #include "ingest/meshes/triangle_mesh.h"
-#include "ingest/particles/vdb_points.h"
+#include "ingest/particles/particle_series.h"
 #include "mixtures/mixture_series.h"
 #include "render/build/fill_builder.h"
 #include "render/build/grain_facts.h"
@@ -35,8 +35,6 @@ RenderSpace space_of(const Imath::Box3d& box)
     if (size > 0) std::frexp(size, &space.exponent);
     return space;
 }
-
-bool is_points_file(const std::filesystem::path& path) { return lower_case(path.extension().string()) == ".vdb"; }
 
 /// Bounds of points, and through `space` the middle and size of the scene in powers of two.
 struct Bounds {
@@ -97,7 +95,7 @@ struct Spheres {
 struct WorldBuilder::Impl {
     const SceneDescription scene;
     std::shared_ptr<EmbreeDevice> device = std::make_shared<EmbreeDevice>();
-    std::optional<DumpSeries> series;
+    std::unique_ptr<ParticleSeries> series; ///< null without a dump
     std::optional<MixtureSeries> mixtures;
     std::optional<BuiltFill> fill;
     TypeBuilder types{device};
@@ -105,21 +103,16 @@ struct WorldBuilder::Impl {
     std::vector<TriangleMesh> surfaces;
     std::map<size_t, std::shared_ptr<const EnvironmentMap>> maps; // by light
     PlannedShells shells;
-    std::optional<double> medium_depth;
-    TransportPlan plan;
-    std::vector<PartReport> parts;
-    std::vector<std::string> frame_warnings;
-    uint64_t hash = 0;
 
     explicit Impl(SceneDescription s) : scene(std::move(s)) {}
     Spheres read_spheres(size_t frame, const Progress& progress);
-    void decide(const GrainFacts& facts);
-    GrainStore make_grains(Spheres spheres, const TypeRequest& request, World& world);
-    void make_fill(const TypeRequest& request, World& world);
+    TransportPlan decide(const GrainFacts& facts) const;
+    GrainStore make_grains(Spheres spheres, const BuildContext& context, World& world, BuiltFrame& built);
+    void make_fill(const BuildContext& context, World& world, BuiltFrame& built);
     TriangleMesh read_surface(const SurfaceDescription& surface) const;
-    void make_surfaces(World& world);
-    LightSet make_lights(const World& world);
-    std::shared_ptr<const EnvironmentMap> read_map(size_t light);
+    void make_surfaces(World& world, BuiltFrame& built);
+    LightSet make_lights(const World& world, BuiltFrame& built);
+    std::shared_ptr<const EnvironmentMap> read_map(size_t light, BuiltFrame& built);
     std::optional<MixtureSeries> make_mixtures() const;
     ParticleFrame read_dump(size_t frame, const Progress& progress) const;
 };
@@ -146,9 +139,7 @@ Spheres WorldBuilder::Impl::read_spheres(size_t number, const Progress& progress
 {
     Spheres spheres;
     ParticleFrame& frame = spheres.frame;
-    if (is_points_file(scene.assembly->dump)) {
-        frame = read_vdb_points(scene.assembly->dump);
-    } else if (series) {
+    if (series) {
         frame = read_dump(number, progress);
         if (const auto deciding = mixtures->deciding_frame(series->frame_count()); deciding && !mixtures->decided()) {
             mixtures->decide(*deciding == number ? frame : read_dump(*deciding, progress));
@@ -171,13 +162,15 @@ Spheres WorldBuilder::Impl::read_spheres(size_t number, const Progress& progress
     return spheres;
 }
 
-void WorldBuilder::Impl::decide(const GrainFacts& facts)
+TransportPlan WorldBuilder::Impl::decide(const GrainFacts& facts) const
 {
-    plan = plan_transport(scene.integrator, scene.camera, scene.film, facts);
+    TransportPlan plan = plan_transport(scene.integrator, scene.camera, scene.film, facts);
     if (scene.media.empty() && !plan.has_grain_medium) plan.has_shells = false;
+    return plan;
 }
 
-GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, const TypeRequest& request, World& world)
+GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, const BuildContext& context, World& world,
+                                           BuiltFrame& built)
 {
     const ParticleFrame& frame = spheres.frame;
     Bounds bounds; // grains of radius 0 are left out of the world, and so of its bounds
@@ -187,7 +180,7 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, const TypeRequest& r
         used[spheres.types[i]] = 1;
         bounds.extend(frame.position[i], frame.radius[i]);
     }
-    decide(facts_of_list(frame, spheres.types, scene.types));
+    built.plan = decide(facts_of_list(frame, spheres.types, scene.types));
     if (frame.domain) {
         set_domain(*frame.domain, world);
     } else {
@@ -195,7 +188,7 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, const TypeRequest& r
         world.space.origin = scene_origin(frame.position, bounds);
     }
 
-    hash = types.build(scene.types, used, request, world, hash);
+    built.hash = types.build(scene.types, used, context, world, built.hash);
 
     GrainStore grains;
     uint64_t without_size = 0;
@@ -230,30 +223,30 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, const TypeRequest& r
         grains.ids = {};
     }
     grains.widen();
-    if (without_size > 0) frame_warnings.push_back(fmt::format("{} grains of radius 0 are left out", without_size));
-    hash = hash_vector(grains.type_codes,
-                       hash_vector(frame.radius, hash_vector(frame.position, hash_vector(frame.id, hash))));
-    hash = hash_vector(frame.orientation, hash);
+    if (without_size > 0) built.warnings.push_back(fmt::format("{} grains of radius 0 are left out", without_size));
+    built.hash = hash_vector(grains.type_codes,
+                             hash_vector(frame.radius, hash_vector(frame.position, hash_vector(frame.id, built.hash))));
+    built.hash = hash_vector(frame.orientation, built.hash);
     return grains;
 }
 
-void WorldBuilder::Impl::make_fill(const TypeRequest& request, World& world)
+void WorldBuilder::Impl::make_fill(const BuildContext& context, World& world, BuiltFrame& built)
 {
     if (!fill) fill = build_fill(scene);
-    parts.insert(parts.end(), fill->parts.begin(), fill->parts.end());
-    frame_warnings.insert(frame_warnings.end(), fill->remarks.begin(), fill->remarks.end());
+    built.parts.insert(built.parts.end(), fill->parts.begin(), fill->parts.end());
+    built.warnings.insert(built.warnings.end(), fill->remarks.begin(), fill->remarks.end());
     const ProceduralFill& spheres = *fill->fill;
     set_domain(spheres.domain().bounds(), world);
     world.fill = std::make_shared<GrainFill>(fill->fill, fill->mixture, world.space);
-    decide(facts_of_fill(*world.fill, scene.types));
+    built.plan = decide(facts_of_fill(*world.fill, scene.types));
     std::vector<uint8_t> used(scene.types.size(), 1);
     if (const auto possible = fill->mixture->possible_types()) {
         for (uint32_t type = 0; type < used.size(); ++type) used[type] = possible->contains(type);
     }
-    hash = types.build(scene.types, used, request, world, hash);
-    hash = hash_mesh(spheres.domain().mesh(), hash_mixture(scene.mixture, scene.file.parent_path(), hash));
-    hash = hash_vector(spheres.tile().radius, hash_vector(spheres.tile().type, hash));
-    for (const auto& variant : spheres.tile().variants) hash = hash_vector(variant, hash);
+    built.hash = types.build(scene.types, used, context, world, built.hash);
+    built.hash = hash_mesh(spheres.domain().mesh(), hash_mixture(scene.mixture, scene.file.parent_path(), built.hash));
+    built.hash = hash_vector(spheres.tile().radius, hash_vector(spheres.tile().type, built.hash));
+    for (const auto& variant : spheres.tile().variants) built.hash = hash_vector(variant, built.hash);
 }
 
 TriangleMesh WorldBuilder::Impl::read_surface(const SurfaceDescription& surface) const
@@ -262,7 +255,7 @@ TriangleMesh WorldBuilder::Impl::read_surface(const SurfaceDescription& surface)
                                         : read_mesh(surface.mesh);
 }
 
-void WorldBuilder::Impl::make_surfaces(World& world)
+void WorldBuilder::Impl::make_surfaces(World& world, BuiltFrame& built)
 {
     const Stopwatch watch;
     if (surfaces.empty()) {
@@ -288,18 +281,18 @@ void WorldBuilder::Impl::make_surfaces(World& world)
         for (const V3d& p : surfaces[i].positions) surface.positions.emplace_back(world.space.point(p));
         triangles += surface.triangles.size();
         bytes += surface.triangles.size() * sizeof(surface.triangles[0]) + surface.positions.size() * sizeof(V3f);
-        hash = hash_mesh(surfaces[i], hash);
+        built.hash = hash_mesh(surfaces[i], built.hash);
         world.surfaces.push_back(std::move(surface));
     }
     if (surfaces.empty())
-        parts.push_back({"surfaces", false, "the scene has none"});
+        built.parts.push_back({"surfaces", false, "the scene has none"});
     else
-        parts.push_back({"surfaces", true, fmt::format("{} meshes, {} triangles", surfaces.size(), triangles),
-                         watch.seconds(), bytes});
+        built.parts.push_back({"surfaces", true, fmt::format("{} meshes, {} triangles", surfaces.size(), triangles),
+                               watch.seconds(), bytes});
 }
 
 /// The map of an environment light, read once; null for others.
-std::shared_ptr<const EnvironmentMap> WorldBuilder::Impl::read_map(size_t light)
+std::shared_ptr<const EnvironmentMap> WorldBuilder::Impl::read_map(size_t light, BuiltFrame& built)
 {
     const LightDescription& description = scene.lights[light];
     if (description.kind != LightDescription::Kind::environment) return nullptr;
@@ -307,23 +300,23 @@ std::shared_ptr<const EnvironmentMap> WorldBuilder::Impl::read_map(size_t light)
     const Stopwatch watch;
     if (!map)
         map = std::make_shared<EnvironmentMap>(read_environment(description.file, description.up, description.scale));
-    parts.push_back({"environment map", true, description.file.filename().string(), watch.seconds(),
-                     map->texels().size() * sizeof(Color)});
-    hash = hash_vector(map->texels(), hash);
+    built.parts.push_back({"environment map", true, description.file.filename().string(), watch.seconds(),
+                           map->texels().size() * sizeof(Color)});
+    built.hash = hash_vector(map->texels(), built.hash);
     return map;
 }
 
-LightSet WorldBuilder::Impl::make_lights(const World& world)
+LightSet WorldBuilder::Impl::make_lights(const World& world, BuiltFrame& built)
 {
     std::vector<Light> lights;
     bool point = false, glass = false;
     if (std::ranges::none_of(scene.lights, [](const LightDescription& light) {
             return light.kind == LightDescription::Kind::environment;
         })) {
-        parts.push_back({"environment map", false, "no light has one"});
+        built.parts.push_back({"environment map", false, "no light has one"});
     }
     for (size_t i = 0; i < scene.lights.size(); ++i) {
-        lights.push_back(make_light(scene.lights[i], read_map(i), world.space));
+        lights.push_back(make_light(scene.lights[i], read_map(i, built), world.space));
         point |= lights.back().kind == LightKind::distant && lights.back().one_minus_cos == 0;
     }
     if (world.has_grains()) {
@@ -331,7 +324,7 @@ LightSet WorldBuilder::Impl::make_lights(const World& world)
     }
     for (const Surface& surface : world.surfaces) glass |= surface.material.transmits() || surface.material.is_delta();
     if (point && glass) {
-        frame_warnings.push_back(
+        built.warnings.push_back(
             "a distant light of angle 0 cannot be found by paths through glass: its caustics are missing");
     }
     double radius2 = world.has_grains() ? 1.0 : 0.0;
@@ -351,8 +344,7 @@ WorldBuilder::WorldBuilder(SceneDescription scene) : impl_(std::make_unique<Impl
                          fmt::format("{} grain types", impl_->scene.types.size()), "at most 256");
     }
     const auto& assembly = impl_->scene.assembly;
-    if (assembly && !assembly->dump.empty() && !is_points_file(assembly->dump))
-        impl_->series = DumpSeries::open(assembly->dump);
+    if (assembly && !assembly->dump.empty()) impl_->series = open_particles(assembly->dump).series;
     impl_->mixtures = impl_->make_mixtures();
 }
 
@@ -360,57 +352,46 @@ WorldBuilder::~WorldBuilder() = default;
 
 const SceneDescription& WorldBuilder::scene() const { return impl_->scene; }
 size_t WorldBuilder::frame_count() const { return impl_->series ? impl_->series->frame_count() : 1; }
-const TransportPlan& WorldBuilder::plan() const { return impl_->plan; }
-std::optional<double> WorldBuilder::medium_depth() const { return impl_->medium_depth; }
-const std::vector<PartReport>& WorldBuilder::parts() const { return impl_->parts; }
-uint64_t WorldBuilder::scene_hash() const { return impl_->hash; }
 std::shared_ptr<const EmbreeDevice> WorldBuilder::device() const { return impl_->device; }
 
-std::string WorldBuilder::frame_name(size_t frame) const
+BuiltFrame WorldBuilder::build(size_t frame, const Progress& progress, Precompute precompute)
 {
-    if (!impl_->series) return "";
-    return fmt::format("{} step {}", impl_->series->file(frame).filename().string(), impl_->series->step(frame));
-}
-
-std::vector<std::string> WorldBuilder::warnings() const
-{
-    std::vector<std::string> all = impl_->frame_warnings;
-    if (impl_->series) all.insert(all.begin(), impl_->series->warnings().begin(), impl_->series->warnings().end());
-    return all;
-}
-
-std::shared_ptr<const World> WorldBuilder::build(size_t frame, const Progress& progress, Precompute precompute)
-{
-    impl_->parts.clear();
-    impl_->frame_warnings.clear();
-    impl_->hash = hash_bytes(impl_->scene.canonical.data(), impl_->scene.canonical.size(), frame);
-    auto world = std::make_shared<World>();
-    const TypeRequest request{impl_->plan, precompute, progress, impl_->parts, impl_->frame_warnings};
-    impl_->decide({});
-    if (impl_->scene.assembly && impl_->scene.assembly->fill) {
-        impl_->make_fill(request, *world);
-    } else if (impl_->scene.assembly) {
+    Impl& impl = *impl_;
+    const SceneDescription& scene = impl.scene;
+    BuiltFrame built;
+    built.frame = frame;
+    built.hash = hash_bytes(scene.canonical.data(), scene.canonical.size(), frame);
+    built.plan = impl.decide({});
+    if (impl.series) built.warnings = impl.series->warnings();
+    const auto world = std::make_shared<World>();
+    const BuildContext context{built.plan, precompute, progress, built.parts, built.warnings};
+    if (scene.assembly && scene.assembly->fill) {
+        impl.make_fill(context, *world, built);
+    } else if (scene.assembly) {
         const Stopwatch watch;
-        Spheres spheres = impl_->read_spheres(frame, progress);
+        Spheres spheres = impl.read_spheres(frame, progress);
+        if (impl.series)
+            built.name = fmt::format("{} step {}", impl.series->file(frame).filename().string(), spheres.frame.step);
         const uint64_t read = spheres.frame.size();
         const double read_seconds = watch.seconds();
-        world->grains = impl_->make_grains(std::move(spheres), request, *world);
-        impl_->parts.push_back({"grains", true, fmt::format("{} of {} spheres read", world->grains.size(), read),
-                                read_seconds, world->grains.bytes()});
+        world->grains = impl.make_grains(std::move(spheres), context, *world, built);
+        built.parts.push_back({"grains", true, fmt::format("{} of {} spheres read", world->grains.size(), read),
+                               read_seconds, world->grains.bytes()});
     } else {
-        impl_->parts.push_back({"grains", false, "the scene has none"});
+        built.parts.push_back({"grains", false, "the scene has none"});
     }
-    impl_->make_surfaces(*world);
-    impl_->hash = impl_->media.build(*world, request, impl_->hash);
-    if (impl_->scene.media.empty()) impl_->parts.push_back({"medium", false, "the scene has none"});
-    if (impl_->plan.replaces_all && (impl_->scene.integrator.grain_depth || impl_->scene.integrator.grain_flights)) {
-        impl_->frame_warnings.push_back(
+    impl.make_surfaces(*world, built);
+    built.hash = impl.media.build(*world, context, built.hash);
+    if (scene.media.empty()) built.parts.push_back({"medium", false, "the scene has none"});
+    if (built.plan.replaces_all && (scene.integrator.grain_depth || scene.integrator.grain_flights)) {
+        built.warnings.push_back(
             "grain_depth and grain_flights have no effect with vpt and stf, which trace no grains");
     }
-    impl_->medium_depth = make_planned_medium(request, *world);
-    world->lights = impl_->make_lights(*world);
-    impl_->shells.make(request, impl_->media, *world);
-    return world;
+    built.medium_depth = make_planned_medium(context, *world);
+    world->lights = impl.make_lights(*world, built);
+    impl.shells.make(context, impl.media, *world);
+    built.world = world;
+    return built;
 }
 
 } // namespace scree

@@ -1,21 +1,25 @@
 #pragma once
 
+#include "base/enum_names.h"
+
 #include <cstdint>
-#include <string>
-#include <vector>
 
 namespace scree {
 
-/// How the medium that stands for a packing is found.
+/// How the medium that replaces the grains of a packing is computed.
 enum class EquivalentForm : uint8_t {
-    plain, ///< the mean flight and the grains' own albedo and phase function; ways within grains are left out
-    formula, ///< keeps transport length and diffusivity of independent flights
-    walk, ///< keeps those of a walk in the packing
-    decay, ///< and in each channel how light dies away deep in the packing: sigma_t gives it to the brightest, albedos
-           ///< to the others
+    plain, ///< from the mean flight, and the grains' own albedo and phase function; paths inside grains are ignored
+    formula, ///< keeps the transport length and the diffusivity, taking flights as independent (design, section 4)
+    walk, ///< keeps those that a walk in the packing measures
+    decay, ///< the same, and in each channel the decay of light deep in the packing: sigma_t carries that of the
+           ///< brightest channel, the albedos those of the others
 };
-/// Whether it follows from a walk in the packing.
+inline const EnumNames<EquivalentForm> medium_form_names{{EquivalentForm::plain, "plain"},
+                                                         {EquivalentForm::formula, "formula"},
+                                                         {EquivalentForm::walk, "walk"},
+                                                         {EquivalentForm::decay, "decay"}};
+
+/// Whether the form needs a walk in the packing.
 inline bool needs_walk(EquivalentForm form) { return form == EquivalentForm::walk || form == EquivalentForm::decay; }
-inline const std::vector<std::string> medium_form_names{"plain", "formula", "walk", "decay"};
 
 } // namespace scree

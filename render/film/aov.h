@@ -1,13 +1,15 @@
 #pragma once
 
+#include "base/enum_names.h"
+
 #include <cstdint>
-#include <string>
-#include <vector>
 
 namespace scree {
 
 /// What a picture may hold besides its colours.
 enum class Aov : uint8_t { albedo, normal, depth, type, id, variance, samples };
-inline const std::vector<std::string> aov_names{"albedo", "normal", "depth", "type", "id", "variance", "samples"};
+inline const EnumNames<Aov> aov_names{{Aov::albedo, "albedo"},  {Aov::normal, "normal"}, {Aov::depth, "depth"},
+                                      {Aov::type, "type"},      {Aov::id, "id"},         {Aov::variance, "variance"},
+                                      {Aov::samples, "samples"}};
 
 } // namespace scree

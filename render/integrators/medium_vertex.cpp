@@ -23,45 +23,43 @@ void for_each_region(RegionSet set, const Visit& visit)
 
 void Path::enter_world()
 {
-    regions_ = media_->inside(o_, d_);
+    media_.regions = region_tracer_->inside(ray_.o, ray_.d);
     for (const MediumRegion& region : world_.regions) {
         if (region.is_achromatic()) continue;
-        is_spectral_ = true;
-        spectral_.hero = std::min(static_cast<uint32_t>(3 * sampler_.next()), 2u);
+        media_.is_spectral = true;
+        media_.spectral.hero = std::min(static_cast<uint32_t>(3 * sampler_.next()), 2u);
         break;
     }
 }
 
 double Path::clear()
 {
-    if (clear_ >= 0) return clear_;
+    if (ray_.clear >= 0) return ray_.clear;
     // Within a mean free path a ray costs as much as a clearance, and no shell fits.
     double least = 0;
-    if (std::has_single_bit(regions_)) {
-        const MediumRegion& region = world_.regions[static_cast<size_t>(std::countr_zero(regions_))];
-        if (region.shells)
-            least = region.shells->least_length();
-        else if (region.homogeneous) {
-            const V3d& sigma_t = region.homogeneous->sigma_t();
-            least = 1 / std::max({sigma_t.x, sigma_t.y, sigma_t.z});
-        }
+    if (const MediumRegion* const region = only_region()) {
+        if (region->shells)
+            least = region->shells->least_length();
+        else if (const HomogeneousMedium* const uniform = region->medium->uniform())
+            least = 1 / uniform->largest_sigma_t();
     }
-    return clear_ = media_->clearance(o_, least);
+    return ray_.clear = region_tracer_->clearance(ray_.o, least);
 }
 
 MediumEvent Path::medium_event(double t0, double t1)
 {
-    // The nearest of all: media add up. One whose sigma_t depends on the channel comes last, to be walked no farther
-    // than it counts.
+    // Media that overlap add up: the nearest event of all counts. A medium whose sigma_t depends on the channel comes
+    // last, so that its walk ends where another event makes the rest of it pointless.
     MediumEvent first;
     for (const bool achromatic : {true, false}) {
-        for_each_region(regions_, [&](uint32_t number) {
+        for_each_region(media_.regions, [&](uint32_t number) {
             const MediumRegion& region = world_.regions[number];
             if (region.is_achromatic() != achromatic) return;
-            const MediumEvent event = region.event(o_, d_, t0, first.scattered ? first.t : t1, spectral_, sampler_);
+            const MediumEvent event =
+                region.medium->event(ray_.o, ray_.d, t0, first.scattered ? first.t : t1, media_.spectral, sampler_);
             if (event.scattered) first = event;
         });
-        if (!is_spectral_) break;
+        if (!media_.is_spectral) break;
     }
     return first;
 }
@@ -69,63 +67,64 @@ MediumEvent Path::medium_event(double t0, double t1)
 Color Path::media_transmittance(RegionSet regions, const V3d& o, const V3d& d, double t0, double t1)
 {
     Color passed(1);
-    for_each_region(regions,
-                    [&](uint32_t region) { passed *= world_.regions[region].transmittance(o, d, t0, t1, sampler_); });
+    for_each_region(regions, [&](uint32_t region) {
+        passed *= world_.regions[region].medium->transmittance(o, d, t0, t1, sampler_);
+    });
     return passed;
 }
 
 bool Path::step_through_media(Hit& met)
 {
     if (const std::optional<bool> alive = step_through_shell(met)) return *alive;
-    if (regions_ != 0) { // far from everything there is nothing to meet but the medium
-        if (const double until = clear(); until > passed_) {
-            if (const MediumEvent event = medium_event(passed_, until); event.scattered)
+    if (media_.regions != 0) { // far from all geometry the ray can meet nothing but the medium
+        if (const double until = clear(); until > ray_.passed) {
+            if (const MediumEvent event = medium_event(ray_.passed, until); event.scattered)
                 return handle_medium(event, met);
-            passed_ = until;
+            ray_.passed = until;
         }
     }
     ++result_.segments;
     Crossing crossing;
-    Hit hit;
+    Sight sight;
     const auto distance = [&] {
-        hit = look();
-        return hit.place.kind == HitKind::none ? infinite : hit.t;
+        sight = look();
+        return sight.hit.place.kind == HitKind::none ? infinite : sight.hit.t;
     };
-    // Outside of media what is met first mostly ends the ray before it comes to one.
-    const bool outside = regions_ == 0;
+    // Outside media, geometry mostly ends the ray before it reaches one.
+    const bool outside = media_.regions == 0;
     double next = outside ? distance() : infinite;
-    const bool crosses = media_->next(o_, d_, passed_, next, crossed_ ? &crossing_ : nullptr, regions_, crossing);
-    if (!outside && regions_ == 0) ++result_.leaks; // lost through the surface of a medium
-    if (!outside || regions_ != 0) next = distance();
-    if (regions_ != 0) {
-        if (const MediumEvent event = medium_event(passed_, std::min(crossing.t, next)); event.scattered)
+    const bool crosses = region_tracer_->next(ray_.o, ray_.d, ray_.passed, next,
+                                              ray_.crossed ? &*ray_.crossed : nullptr, media_.regions, crossing);
+    if (!outside && media_.regions == 0) ++result_.leaks; // lost through the surface of a medium
+    if (!outside || media_.regions != 0) next = distance();
+    if (media_.regions != 0) {
+        if (const MediumEvent event = medium_event(ray_.passed, std::min(crossing.t, next)); event.scattered)
             return handle_medium(event, met);
     }
     if (crosses && crossing.t <= next) {
         met.place.kind = HitKind::medium;
         met.place.index = crossing.region;
         met.t = crossing.t;
-        met.point = o_ + crossing.t * d_;
+        met.point = ray_.o + crossing.t * ray_.d;
         handle_crossing(crossing);
         return true;
     }
-    met = hit;
-    return handle(hit);
+    met = sight.hit;
+    return handle(sight);
 }
 
 void Path::handle_crossing(const Crossing& crossing)
 {
-    const bool among_grains = detail(regions_) != GrainDetail::none;
-    regions_ = RegionTracer::after(regions_, crossing);
-    crossing_ = crossing;
-    crossed_ = true;
-    passed_ = crossing.t;
-    if (among_grains || detail(regions_) == GrainDetail::none) return;
-    // Among grains again: the ray has not been there before, and starts anew in the void between them.
+    const bool among_grains = detail(media_.regions) != GrainDetail::none;
+    media_.regions = RegionTracer::after(media_.regions, crossing);
+    ray_.crossed = crossing;
+    ray_.passed = crossing.t;
+    if (among_grains || detail(media_.regions) == GrainDetail::none) return;
+    // The ray comes back among grains, where it was not traced so far: it starts anew in the void between them.
     attenuate(surrounding_, crossing.t);
     moved_ += crossing.t;
-    start_ray(void_point(o_ + crossing.t * d_, d_, crossing), d_, {});
-    crossed_ = true; // it may be on the triangle still
+    start_ray(void_point(ray_.o + crossing.t * ray_.d, ray_.d, crossing), ray_.d, {});
+    ray_.crossed = crossing; // the start may still be on that triangle
     last_.elsewhere = true;
 }
 
@@ -136,7 +135,7 @@ V3d Path::void_point(const V3d& place, const V3d& d, const Crossing& crossing)
     V3d point = place;
     Hit around = tracer_.grain_around(point, d);
     if (around.place.kind == HitKind::none) return point;
-    const Frame frame(media_->normal(crossing));
+    const Frame frame(region_tracer_->normal(crossing));
     const double radius = reach * world_.sphere(around.place.index).radius;
     for (int i = 0; i < tries; ++i) {
         const double u = sampler_.next(), v = sampler_.next();
@@ -152,7 +151,7 @@ bool Path::handle_medium(const MediumEvent& event, Hit& met)
 {
     met.place.kind = HitKind::medium;
     met.t = event.t;
-    met.point = o_ + event.t * d_;
+    met.point = ray_.o + event.t * ray_.d;
     ++result_.events;
     if (is_cut()) return false;
     if (!result_.first.hit && depth_ == 1) {
@@ -163,31 +162,27 @@ bool Path::handle_medium(const MediumEvent& event, Hit& met)
     attenuate(surrounding_, event.t);
     weight_ *= event.albedo;
     if (!survives()) return false;
-    o_ = met.point;
-    clear_ = -1;
-    if (world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only) {
-        // Deep in a medium light is looked for as often as it could come through to there.
+    ray_.o = met.point;
+    ray_.clear = -1;
+    if (samples_lights()) {
+        // Deep in a medium, lights are sampled only with the probability that light gets through to there.
         double reached = 1;
-        if (std::has_single_bit(regions_)) {
-            const MediumRegion& region = world_.regions[static_cast<size_t>(std::countr_zero(regions_))];
-            if (region.homogeneous && region.is_achromatic())
-                reached = std::exp(-region.homogeneous->sigma_t().x * clear());
-        }
+        const MediumRegion* const region = only_region();
+        const HomogeneousMedium* const uniform = region ? region->medium->uniform() : nullptr;
+        if (uniform && uniform->is_achromatic()) reached = std::exp(-uniform->sigma_t().x * clear());
         if (reached >= 1 || sampler_.next() < reached)
-            add_phase_light(o_, d_, event.phase, Color(static_cast<Real>(1 / reached)));
+            add_phase_light(ray_.o, ray_.d, event.phase, Color(static_cast<Real>(1 / reached)));
     }
 
     const double u = sampler_.next(), v = sampler_.next(), cosine = event.phase.sample(u);
-    last_ = {false, event.phase.pdf(cosine), o_};
-    const double here = clear_;
-    start_ray(o_, turned(d_, cosine, v), {});
-    clear_ = here;
+    last_ = {false, event.phase.pdf(cosine), ray_.o};
+    start_ray(ray_.o, turned(ray_.d, cosine, v), {}, ray_.clear);
     return true;
 }
 
 Color Path::passing(const V3d& o, const V3d& d, double distance, const Place& from, uint32_t light, RegionSet regions)
 {
-    if (media_) return passing_media(o, d, distance, from, light, regions);
+    if (region_tracer_) return passing_media(o, d, distance, from, light, regions);
     ++result_.shadow_rays;
     return Color(static_cast<Real>(tracer_.visibility(o, d, distance, from, light, detail())));
 }
@@ -207,7 +202,7 @@ Color Path::passing_media(V3d o, const V3d& d, double distance, Place from, uint
     bool crossed = false;
     double t = 0, looked = 0; // along the ray: how far media, and what stands in the way, have been taken into account
     for (;;) {
-        const bool crosses = media_->next(o, d, t, distance, crossed ? &last : nullptr, regions, crossing);
+        const bool crosses = region_tracer_->next(o, d, t, distance, crossed ? &last : nullptr, regions, crossing);
         const double end = crosses ? crossing.t : distance;
         if (regions != 0) {
             passed *= media_transmittance(regions, o, d, t, end);

@@ -2,74 +2,83 @@
 
 #include "render/materials/bsdf.h"
 
-#include <utility>
+#include <bit>
 
 namespace scree {
 
 PathResult Path::run(V3d o, V3d d, std::vector<PathVertex>* trail)
 {
-    o_ = o;
-    d_ = d;
+    start_ray(o, d, {});
     last_.seen_from = o;
-    if (media_) enter_world();
+    if (region_tracer_) enter_world();
     bool alive = true;
     while (alive) {
-        const V3d start = o_, direction = d_;
+        const V3d start = ray_.o, direction = ray_.d;
         const bool inside = is_inside();
         if ((++steps_ & 0xffff) == 0 && options_.stop && options_.stop()) {
             result_.stopped = true;
             break;
         }
         Hit hit;
-        if (media_ && !inside) {
+        if (region_tracer_ && !inside) {
             alive = step_through_media(hit);
         } else {
-            hit = inside ? tracer_.intersect_inside(grain_, o_, d_, from_) : look();
+            const Sight sight =
+                inside ? Sight{tracer_.intersect_inside(grains_.inside, ray_.o, ray_.d, ray_.from)} : look();
             ++result_.segments;
-            alive = handle(hit);
+            hit = sight.hit;
+            alive = handle(sight);
         }
         if (trail) trail->push_back({start, direction, hit, inside, weight_, light_});
     }
     result_.radiance = Color(light_);
-    result_.last_direction = d_;
+    result_.last_direction = ray_.d;
     return result_;
 }
 
 Hit Path::as_proxy(const Hit& hit) const
 {
     const GrainSphere sphere = world_.sphere(hit.place.index);
-    const V3d to = sphere.centre - o_;
-    const double along = to.dot(d_);
+    const V3d to = sphere.centre - ray_.o;
+    const double along = to.dot(ray_.d);
     Hit proxy = hit;
     proxy.place.triangle = no_triangle;
-    proxy.t = along - safe_sqrt(sphere.radius * sphere.radius - (to - along * d_).length2());
-    proxy.point = o_ + proxy.t * d_;
+    proxy.t = along - safe_sqrt(sphere.radius * sphere.radius - (to - along * ray_.d).length2());
+    proxy.point = ray_.o + proxy.t * ray_.d;
     proxy.normal = (proxy.point - sphere.centre).normalized();
     proxy.t = std::max(0.0, proxy.t); // a camera may stand in the sphere
     return proxy;
 }
 
-Hit Path::look()
+const MediumRegion* Path::only_region() const
 {
-    const Hit hit = tracer_.intersect(o_, d_, from_, detail(regions_), beyond_);
-    unresolved_ = depth_ == 0 && hit.place.kind == HitKind::grain && explicit_left_ > 0 && !is_resolved(hit);
-    return unresolved_ ? as_proxy(hit) : hit;
+    if (!std::has_single_bit(media_.regions)) return nullptr;
+    return &world_.regions[static_cast<size_t>(std::countr_zero(media_.regions))];
 }
 
-bool Path::handle(const Hit& hit)
+Path::Sight Path::look()
 {
-    // Seen as it is it has been met, and so it is as a proxy: that of a ray that does not miss it.
-    const bool unresolved = std::exchange(unresolved_, false);
-    if (unresolved) explicit_left_ = 0;
+    const Hit hit = tracer_.intersect(ray_.o, ray_.d, ray_.from, detail(media_.regions), ray_.beyond);
+    if (depth_ == 0 && hit.place.kind == HitKind::grain && grains_.explicit_left > 0 && !is_resolved(hit))
+        return {as_proxy(hit), true};
+    return {hit, false};
+}
+
+bool Path::handle(const Sight& sight)
+{
+    const Hit& hit = sight.hit;
+    if (sight.unresolved) grains_.explicit_left = 0;
     if (hit.place.kind == HitKind::none) return handle_miss();
     const bool is_proxy = hit.place.kind == HitKind::grain && hit.place.triangle == no_triangle && !is_inside() &&
                           detail() == GrainDetail::proxy;
-    if (is_proxy && !unresolved && misses_proxy(hit)) {
-        beyond_ = passed_ = hit.t; // on along the same ray
+    // The ray already hit the geometry of an unresolved grain, so its proxy counts as hit too.
+    if (is_proxy && !sight.unresolved && misses_proxy(hit)) {
+        ray_.beyond = ray_.passed = hit.t; // the same ray goes on
         return true;
     }
-    if (media_ && is_inside() && hit.place.kind != HitKind::none) regions_ = media_->after(regions_, o_, hit.point);
-    attenuate(is_inside() ? &material_of(grain_) : surrounding_, hit.t);
+    if (region_tracer_ && is_inside() && hit.place.kind != HitKind::none)
+        media_.regions = region_tracer_->after(media_.regions, ray_.o, hit.point);
+    attenuate(is_inside() ? &material_of(grains_.inside) : surrounding_, hit.t);
     if (hit.place.kind == HitKind::light) {
         add_light(hit);
         return false;
@@ -79,11 +88,11 @@ bool Path::handle(const Hit& hit)
 
 bool Path::handle_miss()
 {
-    if (is_inside()) { // lost between two triangles: go on as if the interface were not there
+    if (is_inside()) { // lost between two triangles: the path goes on as if there were no interface
         ++result_.leaks;
-        grain_ = {};
-        start_ray(o_, d_, {});
-        last_.specular = true; // no light was sampled for this way
+        grains_.inside = {};
+        start_ray(ray_.o, ray_.d, {});
+        last_.specular = true; // no light was sampled for this ray
         return true;
     }
     add_infinite_lights();
@@ -101,16 +110,16 @@ bool Path::handle_interface(const Hit& hit)
 {
     if (is_cut()) return false;
     const bool on_grain = hit.place.kind == HitKind::grain;
-    if (on_grain && hit.place.index != last_grain_) {
-        last_grain_ = hit.place.index;
-        if (explicit_left_ != all_grains) --explicit_left_;
+    if (on_grain && hit.place.index != grains_.last) {
+        grains_.last = hit.place.index;
+        if (grains_.explicit_left != all_grains) --grains_.explicit_left;
     }
     const Material& material = on_grain ? material_of(hit.place) : world_.surfaces[hit.place.index].material;
     const Frame frame(hit.normal);
-    const V3d wo = frame.to_local(-d_);
+    const V3d wo = frame.to_local(-ray_.d);
     if (!result_.first.hit && depth_ == 1) note_first(hit, material);
 
-    if (!material.is_delta() && world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only) {
+    if (!material.is_delta() && samples_lights()) {
         add_direct_light(hit, material, frame, wo);
     }
     const BsdfSample sample = sample_bsdf(material, wo, sampler_);
@@ -120,18 +129,18 @@ bool Path::handle_interface(const Hit& hit)
 
     if (material.transmits()) {
         if (on_grain)
-            grain_ = sample.wi.z < 0 ? hit.place : Place{};
+            grains_.inside = sample.wi.z < 0 ? hit.place : Place{};
         else
             surrounding_ = sample.wi.z < 0 ? &material : nullptr;
     }
     start_ray(hit.point, frame.to_world(sample.wi).normalized(), hit.place);
-    last_ = {material.is_delta(), sample.pdf, o_};
+    last_ = {material.is_delta(), sample.pdf, ray_.o};
     return true;
 }
 
 bool Path::survives()
 {
-    const double w = max_component(weight_ * spectral_.weight());
+    const double w = max_component(weight_ * media_.spectral.weight());
     if (w <= 0) return false;
     constexpr double worth_ending =
         1 - 0x1p-5; // above, random numbers in steps of 2^-32 would lose what next to no absorption takes
@@ -170,7 +179,7 @@ void Path::add_direct_light(const Hit& hit, const Material& material, const Fram
     if (leads_inside) return;
     const Color f = eval_bsdf(material, wo, wi, sampler_);
     if (is_black(f)) return;
-    const Color passed = passing(hit.point, light.direction, light.distance, hit.place, light.light, regions_);
+    const Color passed = passing(hit.point, light.direction, light.distance, hit.place, light.light, media_.regions);
     if (!is_black(passed)) add_light_sample(light, light.distance, f, pdf_bsdf(material, wo, wi), passed);
 }
 
@@ -195,10 +204,10 @@ double Path::found_pdf(uint32_t light, double distance) const
 {
     if (last_.specular || !world_.lights.lights()[light].is_sampled()) return 0;
     if (last_.elsewhere && std::isfinite(distance)) {
-        distance = world_.lights.meet(light, last_.seen_from, d_);
+        distance = world_.lights.meet(light, last_.seen_from, ray_.d);
         if (!std::isfinite(distance)) return 0;
     }
-    return world_.lights.pdf(light, last_.seen_from, d_, distance);
+    return world_.lights.pdf(light, last_.seen_from, ray_.d, distance);
 }
 
 void Path::add_infinite_lights()
@@ -206,7 +215,7 @@ void Path::add_infinite_lights()
     const auto& lights = world_.lights.lights();
     for (uint32_t i = 0; i < lights.size(); ++i) {
         if (!lights[i].is_infinite()) continue;
-        const Color radiance = world_.lights.infinite_radiance(i, d_);
+        const Color radiance = world_.lights.infinite_radiance(i, ray_.d);
         if (is_black(radiance)) continue;
         add(radiance * static_cast<Real>(found_weight(found_pdf(i, std::numeric_limits<double>::infinity()))));
     }

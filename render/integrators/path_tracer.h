@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/enum_names.h"
 #include "base/sampler.h"
 #include "render/film/film.h"
 #include "render/film/pixel_size.h"
@@ -12,6 +13,8 @@ namespace scree {
 
 /// How direct light is found: by both strategies (weighed), or by one alone, for tests.
 enum class DirectLight : uint8_t { both, lights_only, scattering_only };
+inline const EnumNames<DirectLight> direct_light_names{
+    {DirectLight::both, "both"}, {DirectLight::lights_only, "lights"}, {DirectLight::scattering_only, "scattering"}};
 
 struct PathOptions {
     DirectLight direct_light = DirectLight::both;

@@ -19,7 +19,7 @@ double length_outside(const V3d& entry, const V3d& exit, const GsdfRecord& recor
 bool Path::misses_proxy(const Hit& hit)
 {
     const Gsdf& gsdf = *world_.types[hit.place.type].gsdf;
-    return !gsdf.always_met() && sampler_.next() < gsdf.alpha0(Encounter(hit.normal, d_).q);
+    return !gsdf.always_met() && sampler_.next() < gsdf.alpha0(Encounter(hit.normal, ray_.d).q);
 }
 
 bool Path::handle_proxy(const Hit& hit)
@@ -27,14 +27,13 @@ bool Path::handle_proxy(const Hit& hit)
     const GrainSphere sphere = world_.sphere(hit.place.index);
     const GrainType& type = world_.types[hit.place.type];
     const Gsdf& gsdf = *type.gsdf;
-    const Encounter encounter(hit.normal, d_);
+    const Encounter encounter(hit.normal, ray_.d);
 
     if (is_cut()) return false;
     if (!result_.first.hit && depth_ == 1) note_first(hit, type.material);
 
     const uint32_t stratum = Gsdf::stratum(encounter.q, sampler_.next());
-    if (world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only)
-        add_proxy_light(hit, encounter, stratum);
+    if (samples_lights()) add_proxy_light(hit, encounter, stratum);
 
     const uint32_t cell = gsdf.sample_cell(stratum, sampler_.next());
     const uint32_t number = gsdf.pick(stratum, cell, sampler_.next());
@@ -45,12 +44,12 @@ bool Path::handle_proxy(const Hit& hit)
     attenuate(surrounding_, length_outside(hit.point, exit, record, sphere.radius));
     if (const Hit between = tracer_.surface_between(hit.point, exit); between.place.kind == HitKind::surface) {
         // A surface cuts through the sphere: the path has it before it.
-        d_ = (exit - hit.point).normalized();
-        if (media_) regions_ = media_->after(regions_, hit.point, between.point);
+        ray_.d = (exit - hit.point).normalized();
+        if (region_tracer_) media_.regions = region_tracer_->after(media_.regions, hit.point, between.point);
         last_ = {true, 0, hit.point};
         return handle_interface(between);
     }
-    if (media_) regions_ = media_->after(regions_, hit.point, exit);
+    if (region_tracer_) media_.regions = region_tracer_->after(media_.regions, hit.point, exit);
     start_ray(exit, encounter.to_world(record.direction.unpack()).normalized(), hit.place);
     last_ = {false, gsdf.cell_density(stratum, cell), sphere.centre, true};
     return true;
@@ -81,7 +80,7 @@ void Path::add_proxy_light(const Hit& hit, const Encounter& encounter, uint32_t 
     }
     if (surrounding_)
         kept *= transmittance(*surrounding_, length_outside(hit.point, exit, gsdf.record(number), sphere.radius));
-    const RegionSet regions = media_ ? media_->after(regions_, hit.point, exit) : 0;
+    const RegionSet regions = region_tracer_ ? region_tracer_->after(media_.regions, hit.point, exit) : 0;
     const Color passed = passing(exit, light.direction, distance, hit.place, light.light, regions);
     if (is_black(passed) || tracer_.surface_between(hit.point, exit).place.kind == HitKind::surface) return;
     add_light_sample(light, distance, kept * density, gsdf.cell_density(stratum, cell), passed);

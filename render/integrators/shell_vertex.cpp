@@ -5,28 +5,25 @@
 #include "render/integrators/path.h"
 #include "render/stf/medium_shells.h"
 
-#include <bit>
-
 namespace scree {
 
 std::optional<bool> Path::step_through_shell(Hit& met)
 {
-    if (!std::has_single_bit(regions_) || passed_ > 0 || (surrounding_ && !is_black(surrounding_->absorption)))
-        return std::nullopt;
-    const MediumRegion& region = world_.regions[static_cast<size_t>(std::countr_zero(regions_))];
-    const MediumShells* shells = region.shells.get();
+    const MediumRegion* const region = only_region();
+    if (!region || ray_.passed > 0 || (surrounding_ && !is_black(surrounding_->absorption))) return std::nullopt;
+    const MediumShells* shells = region->shells.get();
     if (!shells) return std::nullopt;
     const double clear = this->clear();
     FittingShell shell;
-    if (!shells->fit(o_, clear, shells->needs_chance() ? sampler_.next() : 0, shell)) return std::nullopt;
+    if (!shells->fit(ray_.o, clear, shells->needs_chance() ? sampler_.next() : 0, shell)) return std::nullopt;
 
     met.place.kind = HitKind::medium;
     met.t = shell.length;
     ++result_.shells;
     if (sampler_.next() < std::exp(-shell.radius)) {
-        met.point = o_ + shell.length * d_;
+        met.point = ray_.o + shell.length * ray_.d;
         moved_ += shell.length;
-        start_ray(met.point, d_, {});
+        start_ray(met.point, ray_.d, {});
         last_.elsewhere = true;
         return true;
     }
@@ -38,11 +35,11 @@ std::optional<bool> Path::step_through_shell(Hit& met)
     }
     if (shells->form() == StfForm::diffusion) return diffuse_through(shell, met);
     const bool is_full = shells->form() == StfForm::full;
-    const bool samples_lights = world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only;
     // What reaches the shell from outside of the clear ball at all.
-    const double beyond = clear - shell.length, reached = region.homogeneous ? std::exp(-shell.sigma_t * beyond)
-                                                                             : light_reaching(beyond, shell.sigma_t);
-    const bool lit = samples_lights && (reached >= 1 || sampler_.next() < reached);
+    const double beyond = clear - shell.length, reached = region->medium->uniform()
+                                                              ? std::exp(-shell.sigma_t * beyond)
+                                                              : light_reaching(beyond, shell.sigma_t);
+    const bool lit = samples_lights() && (reached >= 1 || sampler_.next() < reached);
     const double scale = shell.length / shell.radius; // of a mean free path
     if (lit) {
         if (is_full)
@@ -51,17 +48,17 @@ std::optional<bool> Path::step_through_shell(Hit& met)
             add_single_light(shell, 1 / reached);
     }
 
-    const ShellFrame frame(d_, sampler_.next());
+    const ShellFrame frame(ray_.d, sampler_.next());
     const ShellExit& exit = shell.shell->exit(sampler_.next());
     const ShellPlace there = place_of(exit);
     const V3d normal = frame.to_world(there.place);
     weight_ *= shell.ratio(exit.events) * shell.shell->survival();
     if (!survives()) return false;
-    met.point = o_ + shell.length * normal;
+    met.point = ray_.o + shell.length * normal;
     if (is_full || exit.events == 1) {
         const V3d direction = frame.to_world(there.direction).normalized();
         start_ray(met.point, direction, {});
-        last_ = {false, shell.phase.pdf(exit.cosine), o_ - scale * double{exit.flight} * direction, true};
+        last_ = {false, shell.phase.pdf(exit.cosine), ray_.o - scale * double{exit.flight} * direction, true};
         return true;
     }
     return leave_by_cosine(met.point, normal, lit ? static_cast<Real>(1 / reached) : 0);
@@ -81,8 +78,8 @@ bool Path::diffuse_through(const FittingShell& shell, Hit& met)
     };
     weight_ *= Weight(left(shell.albedo.x), left(shell.albedo.y), left(shell.albedo.z));
     if (!survives()) return false;
-    met.point = o_ + shell.length * normal;
-    const bool lit = world_.lights.any_sampled() && options_.direct_light != DirectLight::scattering_only;
+    met.point = ray_.o + shell.length * normal;
+    const bool lit = samples_lights();
     return leave_by_cosine(met.point, normal, lit ? 1 : 0);
 }
 
@@ -93,7 +90,7 @@ bool Path::leave_by_cosine(const V3d& place, const V3d& normal, Real light_weigh
         const LightSample light = world_.lights.sample(place, u0, u1, u2);
         const double cosine = light.valid ? light.direction.dot(normal) : 0;
         if (cosine > 0) {
-            const Color passed = passing(place, light.direction, light.distance, {}, light.light, regions_);
+            const Color passed = passing(place, light.direction, light.distance, {}, light.light, media_.regions);
             if (!is_black(passed))
                 add_light_sample(light, light.distance, Color(light_weight * static_cast<Real>(cosine / pi)),
                                  cosine / pi, passed);
@@ -108,9 +105,9 @@ bool Path::leave_by_cosine(const V3d& place, const V3d& normal, Real light_weigh
 
 void Path::add_event_light(const FittingShell& shell, double scale, double weight)
 {
-    const ShellFrame frame(d_, sampler_.next());
+    const ShellFrame frame(ray_.d, sampler_.next());
     const ShellEvent& event = shell.shell->event(sampler_.next());
-    const V3d place = o_ + scale * frame.to_world({event.aside, 0, event.along});
+    const V3d place = ray_.o + scale * frame.to_world({event.aside, 0, event.along});
     weight *= shell.shell->event_weight() / shell.shell->closeness(event);
     add_phase_light(place, frame.to_world(V3d(event.direction)), shell.phase,
                     Color(shell.ratio(event.events) * weight));
@@ -123,7 +120,7 @@ double Path::first_flight(const FittingShell& shell)
 
 void Path::add_single_light(const FittingShell& shell, double weight)
 {
-    add_phase_light(o_ + first_flight(shell) * d_, d_, shell.phase, shell.albedo * weight);
+    add_phase_light(ray_.o + first_flight(shell) * ray_.d, ray_.d, shell.phase, shell.albedo * weight);
 }
 
 void Path::add_phase_light(const V3d& place, const V3d& before, const PhaseFunction& phase, const Color& weight)
@@ -132,7 +129,7 @@ void Path::add_phase_light(const V3d& place, const V3d& before, const PhaseFunct
     const LightSample light = world_.lights.sample(place, u0, u1, u2);
     if (!light.valid) return;
     const double density = phase.pdf(before.dot(light.direction));
-    const Color passed = passing(place, light.direction, light.distance, {}, light.light, regions_);
+    const Color passed = passing(place, light.direction, light.distance, {}, light.light, media_.regions);
     if (!is_black(passed))
         add_light_sample(light, light.distance, weight * static_cast<Real>(density), density, passed);
 }

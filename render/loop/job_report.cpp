@@ -43,15 +43,15 @@ const char* kind_name(HitKind kind)
 
 } // namespace
 
-std::vector<PartReport> all_parts(const WorldBuilder& builder, const World& world, bool is_cropped)
+std::vector<PartReport> all_parts(const SceneDescription& scene, const BuiltFrame& built, bool is_cropped)
 {
-    const TransportPlan& plan = builder.plan();
-    const FilmDescription& film = builder.scene().film;
+    const TransportPlan& plan = built.plan;
+    const World& world = *built.world;
     const std::string why_proxies = fmt::format("after {} grains of a path", plan.explicit_grains);
     const std::string why_none = !plan.has_grains || plan.replaces_all ? plan.why : "every grain is traced as it is";
     std::vector<PartReport> parts{{"explicit grains", plan.has_exemplars(), plan.why},
                                   {"proxies", plan.has_proxies(), plan.has_proxies() ? why_proxies : why_none}};
-    parts.insert(parts.end(), builder.parts().begin(), builder.parts().end());
+    parts.insert(parts.end(), built.parts.begin(), built.parts.end());
 
     if (is_cropped) { // a grain out of sight shades those in sight and lights them, so a list keeps it
         const std::string part = "grains outside the crop";
@@ -75,26 +75,24 @@ std::vector<PartReport> all_parts(const WorldBuilder& builder, const World& worl
                                                       : "only constant light, or none, which every path finds";
     parts.push_back(
         {"light sampling", sampled, sampled ? "next-event estimation with multiple importance sampling" : found});
-    for (size_t i = 0; i < aov_names.size(); ++i) {
-        const bool wanted = std::ranges::find(film.aov, static_cast<Aov>(i)) != film.aov.end();
-        parts.push_back({"channels " + aov_names[i], wanted, wanted ? "asked for" : "not asked for"});
+    for (const auto& [aov, name] : aov_names) {
+        const bool wanted = std::ranges::find(scene.film.aov, aov) != scene.film.aov.end();
+        parts.push_back({"channels " + name, wanted, wanted ? "asked for" : "not asked for"});
     }
     return parts;
 }
 
-std::string plan_text(const WorldBuilder& builder, const World& world, size_t frame, bool is_cropped)
+std::string plan_text(const SceneDescription& scene, const BuiltFrame& built, size_t frame_count, bool is_cropped)
 {
-    const SceneDescription& scene = builder.scene();
+    const World& world = *built.world;
     std::string text = fmt::format("{}: {}x{}, integrator {}", scene.file.string(), scene.film.width, scene.film.height,
-                                   integrator_names[static_cast<size_t>(scene.integrator.kind)]);
+                                   integrator_names[scene.integrator.kind]);
     if (scene.integrator.kind == IntegratorKind::automatic)
-        text += fmt::format(", accuracy {}", accuracy_names[static_cast<size_t>(scene.integrator.accuracy)]);
-    text += builder.frame_name(frame).empty()
-                ? "\n"
-                : fmt::format(", frame {} of {}: {}\n", frame, builder.frame_count(), builder.frame_name(frame));
-    for (const PartReport& part : all_parts(builder, world, is_cropped)) text += part_text(part);
+        text += fmt::format(", accuracy {}", accuracy_names[scene.integrator.accuracy]);
+    text += built.name.empty() ? "\n" : fmt::format(", frame {} of {}: {}\n", built.frame, frame_count, built.name);
+    for (const PartReport& part : all_parts(scene, built, is_cropped)) text += part_text(part);
     text += part_text({"acceleration structure", true, "to be built by Embree"});
-    const bool none_traced = builder.plan().replaces_all;
+    const bool none_traced = built.plan.replaces_all;
     text += fmt::format("  would trace {}{}{} grains of {} types among {} surfaces and {} media under {} lights\n",
                         none_traced ? "a medium in place of " : "", world.fill ? "about " : "", world.grain_count(),
                         world.types.size(), world.surfaces.size(), world.regions.size(), world.lights.lights().size());

@@ -18,12 +18,12 @@ struct FrameReport {
     RenderStatistics statistics{};
 };
 
-/// All that was built for the builder's last world, would be, or is skipped, and why, but for the acceleration
-/// structure. is_cropped: only a part of the picture is asked for.
-std::vector<PartReport> all_parts(const WorldBuilder& builder, const World& world, bool is_cropped);
+/// Everything that was built for a frame, or would be, or is skipped, and why; without the acceleration structure.
+/// is_cropped: only a part of the picture is asked for.
+std::vector<PartReport> all_parts(const SceneDescription& scene, const BuiltFrame& built, bool is_cropped);
 
-/// What would be built for this world and what is skipped, and why; a line a part.
-std::string plan_text(const WorldBuilder& builder, const World& world, size_t frame, bool is_cropped);
+/// The same as text, a line a part. frame_count: of the scene.
+std::string plan_text(const SceneDescription& scene, const BuiltFrame& built, size_t frame_count, bool is_cropped);
 
 std::string statistics_text(const FrameReport& report);
 

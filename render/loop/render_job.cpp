@@ -67,35 +67,34 @@ Film make_film(const RenderJob& job, const FilmDescription& film)
     return Film(w, h, x0, y0, x1, y1);
 }
 
-PictureMetadata make_metadata(const RenderJob& job, const WorldBuilder& builder, const World& world,
-                              const Camera& camera, size_t frame, const RenderStatistics& statistics)
+PictureMetadata make_metadata(const RenderJob& job, const BuiltFrame& built, const Camera& camera,
+                              const RenderStatistics& statistics)
 {
+    const TransportPlan& plan = built.plan;
+    const World& world = *built.world;
     PictureMetadata metadata;
     metadata.texts = {{"software", "Scree"},
                       {"version", SCREE_VERSION},
-                      {"integrator", builder.plan().name()},
-                      {"sceneHash", fmt::format("{:016x}", builder.scene_hash())},
+                      {"integrator", plan.name()},
+                      {"sceneHash", fmt::format("{:016x}", built.hash)},
                       {"seed", std::to_string(job.options.seed)}};
     metadata.numbers = {{"spp", statistics.spp},
                         {"renderTime", statistics.seconds},
-                        {"frame", static_cast<double>(frame)},
+                        {"frame", static_cast<double>(built.frame)},
                         {"nonFiniteSamples", static_cast<double>(statistics.non_finite)}};
     if (statistics.error) {
         metadata.numbers["relativeError"] = statistics.error->picture;
         metadata.numbers["worstTileError"] = statistics.error->worst_tile;
         metadata.numbers["meanSpp"] = statistics.mean_spp;
     }
-    const TransportPlan& plan = builder.plan();
-    if (const std::optional<double> depth = builder.medium_depth()) {
-        metadata.texts["mediumForm"] = medium_form_names[static_cast<size_t>(plan.medium_form)];
+    if (const std::optional<double> depth = built.medium_depth) {
+        metadata.texts["mediumForm"] = medium_form_names[plan.medium_form];
         if (!plan.replaces_all) metadata.numbers["grainDepth"] = *depth;
     }
-    if (plan.has_shells) metadata.texts["stfForm"] = stf_form_names[static_cast<size_t>(plan.stf_form)];
+    if (plan.has_shells) metadata.texts["stfForm"] = stf_form_names[plan.stf_form];
     if (plan.has_proxies()) metadata.numbers["explicitGrains"] = plan.explicit_grains;
-    if (plan.kind != IntegratorKind::ept)
-        metadata.texts["accuracy"] = accuracy_names[static_cast<size_t>(plan.accuracy)];
-    if (builder.scene().assembly && !builder.frame_name(frame).empty())
-        metadata.texts["particles"] = builder.frame_name(frame);
+    if (plan.kind != IntegratorKind::ept) metadata.texts["accuracy"] = accuracy_names[plan.accuracy];
+    if (!built.name.empty()) metadata.texts["particles"] = built.name;
     std::vector<std::string> types;
     for (size_t i = 0; i < world.types.size(); ++i) types.push_back(fmt::format("{}={}", i, world.types[i].name));
     if (!types.empty()) metadata.texts["grainTypes"] = fmt::format("{}", fmt::join(types, ","));
@@ -136,7 +135,8 @@ void check_outputs(const std::vector<std::string>& outputs)
 class Job {
 public:
     explicit Job(const RenderJob& job)
-        : job_(job), console_(job.quiet), builder_(load_scene(job)), scene_(builder_.scene())
+        : job_(job), console_(job.quiet), builder_(load_scene(job)), scene_(builder_.scene()),
+          integrator_(integrator_names[scene_.integrator.kind])
     {
         outputs_ = job.outputs;
         if (outputs_.empty()) outputs_ = {scene_.file.stem().string() + ".exr"};
@@ -165,7 +165,7 @@ public:
         if (stats_file) {
             AtomicFile file(job_.stats_json);
             std::ofstream out(file.temporary());
-            out << statistics_json(reports_, builder_.plan().name());
+            out << statistics_json(reports_, integrator_);
             out.close();
             if (!out)
                 throw InputError(job_.stats_json.string(), "a disk that is full or cannot be written",
@@ -186,24 +186,25 @@ private:
         }
         const auto start = std::chrono::steady_clock::now();
         Progress& progress = console_.progress();
-        const std::shared_ptr<const World> world =
-            builder_.build(frame, progress, job_.plan_only ? Precompute::never : Precompute::now);
-        say_warnings();
+        const BuiltFrame built = builder_.build(frame, progress, job_.plan_only ? Precompute::never : Precompute::now);
+        const World& world = *built.world;
+        integrator_ = built.plan.name();
+        say_warnings(built.warnings);
         if (progress.cancelled()) {
             interrupted_ = true;
             return;
         }
         if (job_.plan_only) {
-            fmt::print("{}", plan_text(builder_, *world, frame, job_.crop || job_.pixel_bounds));
+            fmt::print("{}", plan_text(scene_, built, builder_.frame_count(), job_.crop || job_.pixel_bounds));
             return;
         }
         FrameReport report;
         report.frame = frame;
-        report.name = builder_.frame_name(frame);
-        const RenderSetup setup(builder_, world, job_);
+        report.name = built.name;
+        const RenderSetup setup(builder_, built, job_);
         report.parts = setup.parts();
         report.setup_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        report.grains = world->grain_count() + world->replaced_grains;
+        report.grains = world.grain_count() + world.replaced_grains;
 
         const RenderOptions& options = setup.options();
         if (job_.debug_sample) {
@@ -213,23 +214,21 @@ private:
                                  fmt::format("a pixel of the {}x{} picture", scene_.film.width, scene_.film.height));
             }
             fmt::print("{}",
-                       debug_text(*world, setup.tracer(), setup.camera(), setup.filter(), *job_.debug_sample, options));
+                       debug_text(world, setup.tracer(), setup.camera(), setup.filter(), *job_.debug_sample, options));
             return;
         }
         Film film = make_film(job_, scene_.film);
         if (options.error > 0) film.keep_halves();
         const std::filesystem::path checkpoint = frame_path(outputs_[0], frame, many) + ".checkpoint";
-        const uint64_t approximation = hash_plan(builder_.plan());
+        const uint64_t approximation = hash_plan(built.plan);
         const uint64_t estimator = mix64(approximation ^ mix64(options.path.max_depth * uint64_t{4} +
                                                                static_cast<uint64_t>(options.path.direct_light)));
-        const CheckpointKey key{mix64(builder_.scene_hash() ^ estimator ^ std::bit_cast<uint64_t>(options.error)),
-                                options.seed};
+        const CheckpointKey key{mix64(built.hash ^ estimator ^ std::bit_cast<uint64_t>(options.error)), options.seed};
         if (job_.resume && std::filesystem::exists(checkpoint)) read_checkpoint(checkpoint, film, key);
 
-        report.statistics = render(*world, setup.tracer(), setup.camera(), setup.filter(), film, options, progress);
+        report.statistics = render(world, setup.tracer(), setup.camera(), setup.filter(), film, options, progress);
         interrupted_ = report.statistics.cancelled;
-        const PictureMetadata metadata =
-            make_metadata(job_, builder_, *world, setup.camera(), frame, report.statistics);
+        const PictureMetadata metadata = make_metadata(job_, built, setup.camera(), report.statistics);
         for (const std::string& output : outputs_) {
             const std::string path = frame_path(output, frame, many);
             if (is_exr(path))
@@ -252,9 +251,9 @@ private:
         console_.finish();
         if (!job_.quiet) fmt::print(stderr, "scree: {}\n", text);
     }
-    void say_warnings()
+    void say_warnings(const std::vector<std::string>& warnings)
     {
-        for (const std::string& warning : builder_.warnings()) {
+        for (const std::string& warning : warnings) {
             if (std::find(said_.begin(), said_.end(), warning) == said_.end()) say("note: " + warning);
             said_.push_back(warning);
         }
@@ -288,10 +287,16 @@ private:
     std::vector<std::string> outputs_, said_;
     FrameRange range_;
     std::vector<FrameReport> reports_;
+    std::string integrator_; ///< of the last frame: what its plan does
     bool interrupted_ = false;
 };
 
 } // namespace
+
+void RenderJob::set(const std::string& flag, const std::string& text)
+{
+    for (const SceneOverride& value : switch_overrides(flag, text)) switches.push_back(value);
+}
 
 int run_render_job(const RenderJob& job)
 {

@@ -9,7 +9,7 @@
 
 namespace scree {
 
-/// The job's scene with all that the command line has put in its place. Throws InputError.
+/// The job's scene, with all that the command line replaces. Throws InputError.
 SceneDescription load_scene(const RenderJob& job);
 
 /// The scene's camera over a film of its size, in render coordinates.
@@ -18,8 +18,8 @@ Camera make_camera(const SceneDescription& scene, const RenderSpace& space);
 /// One frame ready to be rendered: its world, what traces it, its camera, and how a path is to go.
 class RenderSetup {
 public:
-    /// world: what the builder built last. Builds the acceleration structures.
-    RenderSetup(const WorldBuilder& builder, std::shared_ptr<const World> world, const RenderJob& job);
+    /// Builds the acceleration structures of a frame of the builder's scene.
+    RenderSetup(const WorldBuilder& builder, const BuiltFrame& built, const RenderJob& job);
 
     const World& world() const { return *world_; }
     const Tracer& tracer() const { return tracer_; }
@@ -29,8 +29,8 @@ public:
     const std::vector<PartReport>& parts() const { return parts_; } ///< all that was built or skipped
 
 private:
-    RenderSetup(const WorldBuilder& builder, std::shared_ptr<const World> world, const RenderJob& job,
-                int64_t bytes_before, const Stopwatch& watch);
+    RenderSetup(const WorldBuilder& builder, const BuiltFrame& built, const RenderJob& job, int64_t bytes_before,
+                const Stopwatch& watch);
 
     std::shared_ptr<const World> world_;
     Tracer tracer_;

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "base/sampler.h"
-#include "render/media/medium_event.h"
+#include "render/media/medium.h"
 
 #include <Imath/ImathBox.h>
 
@@ -27,27 +26,22 @@ struct GridMediumData;
 /// constant, or so dense and uneven that these would take many steps, the optical depth of the interpolant in closed
 /// form instead. So the steps that a walk takes are bounded in the mean whatever the densities are. Made by
 /// make_grid_medium() and read_vdb_medium().
-class GridMedium {
+class GridMedium final : public Medium {
 public:
     explicit GridMedium(std::shared_ptr<const GridMediumData> data);
 
-    /// The first scattering in t0 < t < t1 along o + t d (unit d); t1 may be infinite.
-    MediumEvent event(const V3d& o, const V3d& d, double t0, double t1, SpectralState& state, Sampler& sampler) const;
-
-    /// Unbiased estimate of the transmittance per channel over t0..t1, in 0..1; Russian roulette below 0.1.
-    Color transmittance(const V3d& o, const V3d& d, double t0, double t1, Sampler& sampler) const;
-
-    /// A box around everything that is not empty; empty when nothing is.
-    Imath::Box3d bounds() const;
-    /// sigma_t is the same for all channels everywhere: event() then leaves the SpectralState alone.
-    bool is_achromatic() const;
-    double largest_sigma_t() const; ///< of any channel
-    uint64_t bytes() const;
-    double voxel() const; ///< shortest edge of a voxel of the density
-    /// Anywhere; sigma_t per channel.
-    Color sigma_t(const V3d& p) const;
-    Weight albedo(const V3d& p) const;
-    double g(const V3d& p) const;
+    MediumEvent event(const V3d& o, const V3d& d, double t0, double t1, SpectralState& state,
+                      Sampler& sampler) const override;
+    /// With Russian roulette below 0.1.
+    Color transmittance(const V3d& o, const V3d& d, double t0, double t1, Sampler& sampler) const override;
+    bool is_achromatic() const override;
+    Color sigma_t(const V3d& p) const override;
+    Weight albedo(const V3d& p) const override;
+    double g(const V3d& p) const override;
+    double largest_sigma_t() const override;
+    double voxel() const override; ///< shortest edge of a voxel of the density
+    Imath::Box3d bounds() const override;
+    uint64_t bytes() const override;
 
 private:
     std::shared_ptr<const GridMediumData> data_;

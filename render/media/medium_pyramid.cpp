@@ -47,7 +47,7 @@ void MediumPyramid::Cell::forget_squares()
     back_square = brightest() * back() * back();
 }
 
-MediumPyramid::Cell MediumPyramid::cell_at(const GridMedium& medium, const V3d& place)
+MediumPyramid::Cell MediumPyramid::cell_at(const Medium& medium, const V3d& place)
 {
     Cell cell;
     cell.sigma_t = medium.sigma_t(place).x;
@@ -59,7 +59,7 @@ MediumPyramid::Cell MediumPyramid::cell_at(const GridMedium& medium, const V3d& 
     return cell;
 }
 
-MediumPyramid::MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, double tolerance, double thin,
+MediumPyramid::MediumPyramid(const Medium& medium, const Imath::Box3d& box, double tolerance, double thin,
                              const Progress& progress)
     : tolerance_(tolerance), most_off_(tolerance + slack)
 {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/progress.h"
-#include "render/media/grid_medium.h"
+#include "render/media/medium.h"
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ public:
     /// box: where places will be asked about; render coordinates. tolerance: of sigma_t, 1 - albedo and 1 - g, as parts
     /// of their means: what the means of eight parts of a cube may be off by, and twice the standard deviation of all
     /// that is in it. thin: mean free paths across cubes in which what varies does not count. Throws Cancelled.
-    MediumPyramid(const GridMedium& medium, const Imath::Box3d& box, double tolerance, double thin,
+    MediumPyramid(const Medium& medium, const Imath::Box3d& box, double tolerance, double thin,
                   const Progress& progress);
 
     /// Whether the medium is the same in a ball, within the tolerance; mean: over the ball, about.
@@ -75,7 +75,7 @@ private:
         }
         const Cell& at(int64_t x, int64_t y, int64_t z) const { return cells[index(x, y, z)]; }
     };
-    static Cell cell_at(const GridMedium& medium, const V3d& place);
+    static Cell cell_at(const Medium& medium, const V3d& place);
     void add_level();
     /// Of balls of a radius: its cubes are as wide as they are.
     size_t level_of(double radius) const;

@@ -82,8 +82,11 @@ GrainTypeDescription read_grain_type(const std::string& name, const JsonValue& j
 double read_unit(const JsonValue& json)
 {
     if (json.is_string()) {
-        constexpr double metres[] = {1, 1e-2, 1e-3, 1e-6};
-        return metres[json.choice({"m", "cm", "mm", "um"})];
+        static const std::vector<std::pair<std::string, double>> metres{
+            {"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}};
+        std::vector<std::string> names;
+        for (const auto& [name, length] : metres) names.push_back(name);
+        return metres[json.choice(names)].second;
     }
     if (!json.is_number()) json.fail("metres per unit of length, or \"m\", \"cm\", \"mm\", \"um\"");
     const double unit = json.number(0, 1e30);

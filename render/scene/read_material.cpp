@@ -5,6 +5,10 @@ namespace scree {
 
 namespace {
 
+const EnumNames<MaterialKind> material_names{{MaterialKind::lambert, "lambert"},
+                                             {MaterialKind::dielectric, "dielectric"},
+                                             {MaterialKind::conductor, "conductor"}};
+
 constexpr double largest = std::numeric_limits<float>::max(); // of what is kept as float
 
 /// The GGX width of a roughness 0..1: its square, as in Blender and glTF.
@@ -28,7 +32,7 @@ Material read_material(const JsonValue& json)
 {
     JsonObject object = json.object();
     Material material;
-    material.kind = static_cast<MaterialKind>(object.require("kind").choice({"lambert", "dielectric", "conductor"}));
+    material.kind = object.require("kind").choice(material_names);
     switch (material.kind) {
     case MaterialKind::lambert:
         material.reflectance = read_rgb(object, "reflectance", material.reflectance, 0, 1);

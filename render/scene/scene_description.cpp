@@ -14,6 +14,16 @@ namespace scree {
 
 namespace {
 
+const EnumNames<CameraKind> camera_names{{CameraKind::perspective, "perspective"},
+                                         {CameraKind::orthographic, "orthographic"}};
+const EnumNames<FilterKind> filter_names{
+    {FilterKind::box, "box"}, {FilterKind::tent, "tent"}, {FilterKind::gaussian, "gaussian"}};
+const EnumNames<LightDescription::Kind> light_names{{LightDescription::Kind::constant, "constant"},
+                                                    {LightDescription::Kind::environment, "environment"},
+                                                    {LightDescription::Kind::distant, "distant"},
+                                                    {LightDescription::Kind::rectangle, "rectangle"},
+                                                    {LightDescription::Kind::sphere, "sphere"}};
+
 constexpr double largest = std::numeric_limits<float>::max(); // of what is kept as float
 
 /// A number > 0.
@@ -35,8 +45,7 @@ CameraDescription read_camera(const JsonValue& json)
 {
     JsonObject object = json.object();
     CameraDescription camera;
-    if (const auto kind = object.find("kind"))
-        camera.kind = static_cast<CameraKind>(kind->choice({"perspective", "orthographic"}));
+    if (const auto kind = object.find("kind")) camera.kind = kind->choice(camera_names);
     camera.origin = object.require("origin").vec3();
     const JsonValue target = object.require("target");
     camera.target = target.vec3();
@@ -63,17 +72,16 @@ CameraDescription read_camera(const JsonValue& json)
 Filter read_filter(const JsonValue& json)
 {
     Filter filter;
-    const std::vector<std::string> kinds{"box", "tent", "gaussian"};
     const auto default_radius = [](FilterKind kind) {
         return kind == FilterKind::box ? 0.5 : kind == FilterKind::tent ? 1.0 : 1.5;
     };
     if (json.is_string()) {
-        filter.kind = static_cast<FilterKind>(json.choice(kinds));
+        filter.kind = json.choice(filter_names);
         filter.radius = default_radius(filter.kind);
         return filter;
     }
     JsonObject object = json.object();
-    filter.kind = static_cast<FilterKind>(object.require("kind").choice(kinds));
+    filter.kind = object.require("kind").choice(filter_names);
     filter.radius = default_radius(filter.kind);
     if (const auto radius = object.find("radius")) filter.radius = read_positive(*radius);
     object.done();
@@ -92,7 +100,7 @@ FilmDescription read_film(const JsonValue& json)
     if (const auto filter = object.find("filter")) film.filter = read_filter(*filter);
     if (const auto aov = object.find("aov")) {
         for (const JsonValue& name : aov->array()) {
-            const auto which = static_cast<Aov>(name.choice(aov_names));
+            const Aov which = name.choice(aov_names);
             if (std::find(film.aov.begin(), film.aov.end(), which) == film.aov.end()) film.aov.push_back(which);
         }
     }
@@ -106,8 +114,7 @@ LightDescription read_light(const JsonValue& json)
     JsonObject object = json.object();
     LightDescription light;
     light.place = json.place();
-    light.kind =
-        static_cast<Kind>(object.require("kind").choice({"constant", "environment", "distant", "rectangle", "sphere"}));
+    light.kind = object.require("kind").choice(light_names);
     const auto rgb = [&](const char* key, Color& value) {
         if (const auto found = object.find(key)) value = found->rgb(0, largest);
     };
@@ -263,31 +270,6 @@ void read_grains(const JsonValue& json, SceneDescription& scene)
     scene.assembly = read_assembly(object.require("assembly"), scene.types,
                                    listed && listed->types.empty() && listed->table.empty());
     object.done();
-}
-
-IntegratorDescription read_integrator(const JsonValue& json)
-{
-    JsonObject object = json.object();
-    IntegratorDescription integrator;
-    if (const auto kind = object.find("kind"))
-        integrator.kind = static_cast<IntegratorKind>(kind->choice(integrator_names));
-    if (const auto accuracy = object.find("accuracy"))
-        integrator.accuracy = static_cast<Accuracy>(accuracy->choice(accuracy_names));
-    if (const auto depth = object.find("max_depth"))
-        integrator.max_depth = static_cast<uint32_t>(depth->integer(1, 1000000000));
-    if (const auto grains = object.find("explicit_grains"))
-        integrator.explicit_grains = static_cast<uint32_t>(grains->integer(0, 1000000000));
-    if (const auto depth = object.find("grain_depth")) integrator.grain_depth = depth->number(0, largest);
-    if (const auto pixels = object.find("grain_pixels")) integrator.grain_pixels = pixels->number(0, largest);
-    if (const auto flights = object.find("grain_flights")) integrator.grain_flights = flights->number(0, largest);
-    if (const auto form = object.find("medium_form"))
-        integrator.medium_form = static_cast<EquivalentForm>(form->choice(medium_form_names));
-    if (const auto shells = object.find("shells")) integrator.shells = shells->boolean();
-    if (const auto form = object.find("stf_form"))
-        integrator.stf_form = static_cast<StfForm>(form->choice(stf_form_names));
-    if (const auto least = object.find("least_shell")) integrator.least_shell = least->number(0, largest);
-    object.done();
-    return integrator;
 }
 
 } // namespace

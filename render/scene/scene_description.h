@@ -1,13 +1,12 @@
 #pragma once
 
 #include "mixtures/mixture_description.h"
-#include "render/equivalent/equivalent_form.h"
 #include "render/film/aov.h"
 #include "render/film/filter.h"
 #include "render/grains/library/grain_library.h"
 #include "render/materials/material.h"
 #include "render/scene/camera.h"
-#include "render/stf/stf_form.h"
+#include "render/scene/integrator_description.h"
 
 #include <filesystem>
 #include <map>
@@ -91,33 +90,6 @@ struct MediumDescription {
     std::string density = "density"; ///< vdb: names of grids
     std::string albedo_grid, g_grid; ///< vdb: empty where it is the same everywhere
     bool nearest = false; ///< vdb: no interpolation between voxels
-};
-
-enum class IntegratorKind : uint8_t { automatic, ept, ppt, vpt, stf };
-inline const std::vector<std::string> integrator_names{"auto", "ept", "ppt", "vpt", "stf"};
-
-/// How far approximations may go.
-enum class Accuracy : uint8_t { reference, high, standard, draft };
-inline const std::vector<std::string> accuracy_names{"reference", "high", "standard", "draft"};
-
-/// What the scene or the command line says of the integrator; transport_plan.h makes switches of it.
-struct IntegratorDescription {
-    IntegratorKind kind = IntegratorKind::automatic;
-    Accuracy accuracy = Accuracy::standard;
-    uint32_t max_depth = 0; ///< 0: never cut
-    std::optional<uint32_t> explicit_grains; ///< auto and ppt: how many grains of a path are traced as they are
-    std::optional<double> grain_pixels; ///< auto and ppt, where proxies stand for grains: those that look narrower are
-                                        ///< proxies from the first on
-    std::optional<double> grain_depth; ///< mean radii below every face, from where on a medium stands for the grains;
-                                       ///< absent: nowhere, or as auto has it
-    std::optional<double> grain_flights; ///< but not fewer mean free paths of that medium; absent: as auto has it, or
-                                         ///< none with grain_depth
-    EquivalentForm medium_form = EquivalentForm::decay;
-
-    std::optional<bool> shells; ///< whether light goes through shells in media; absent: with stf and auto
-    StfForm stf_form = StfForm::full;
-    std::optional<double> least_shell; ///< mean free paths that the largest shell of a medium has at least, else it
-                                       ///< gets none; absent: 1, auto 8 and, in grids, where shells save work
 };
 
 /// A scene file, read and checked, with paths made absolute; nothing it names has been opened yet.

@@ -10,23 +10,6 @@ namespace scree {
 
 namespace {
 
-/// What an accuracy sets where the user has not. Errors: see the README's table of accuracies.
-struct Switches {
-    uint32_t explicit_grains;
-    double least_pixels, depth_radii, depth_flights;
-};
-
-Switches switches_of(Accuracy accuracy)
-{
-    switch (accuracy) {
-    case Accuracy::reference: return {all_grains, 0, 0, 0};
-    case Accuracy::high: return {1, 0.5, 8, 5};
-    case Accuracy::standard: return {1, 1, 4, 2.5};
-    case Accuracy::draft: return {0, 0, 2, 1};
-    }
-    return {};
-}
-
 /// Fewer than these are traced as they are: what proxies and a medium need would take longer to make than it saves.
 constexpr uint64_t few_grains = 2000;
 
@@ -81,7 +64,7 @@ std::string TransportPlan::name() const
 {
     return kind == IntegratorKind::automatic && explicit_grains == all_grains && !has_grain_medium && !has_shells
                ? "ept"
-               : integrator_names[static_cast<size_t>(kind)];
+               : integrator_names[kind];
 }
 
 uint64_t hash_plan(const TransportPlan& plan)
@@ -148,9 +131,9 @@ TransportPlan plan_transport(const IntegratorDescription& integrator, const Came
         plan.why = "a medium stands for all grains";
         break;
     case IntegratorKind::automatic: {
-        const Switches switches = switches_of(integrator.accuracy);
-        plan.depth_radii = switches.depth_radii;
-        plan.depth_flights = switches.depth_flights;
+        const AccuracyLevel& level = level_of(integrator.accuracy);
+        plan.depth_radii = level.depth_radii;
+        plan.depth_flights = level.depth_flights;
         if (integrator.accuracy == Accuracy::reference)
             plan.why = "every grain as it is: the accuracy is that of a reference";
         else if (facts.count < few_grains)
@@ -159,8 +142,8 @@ TransportPlan plan_transport(const IntegratorDescription& integrator, const Came
             plan.why = fmt::format("every grain as it is: light meets some {:.2g} of them before it is absorbed",
                                    facts.encounters());
         else {
-            plan.explicit_grains = switches.explicit_grains;
-            plan.least_pixels = integrator.grain_pixels.value_or(switches.least_pixels);
+            plan.explicit_grains = level.explicit_grains;
+            plan.least_pixels = integrator.grain_pixels.value_or(level.least_pixels);
             plan.why = proxies_after(plan.explicit_grains);
             if (const double pixels = largest_in_pixels(camera, film, facts);
                 plan.explicit_grains > 0 && pixels < plan.least_pixels) {

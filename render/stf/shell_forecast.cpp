@@ -71,7 +71,7 @@ double ShellForecast::work(bool lights) const
                    all;
 }
 
-ShellForecast forecast_shells(const GridMedium& medium, const MediumPyramid& pyramid, const Imath::Box3d& box,
+ShellForecast forecast_shells(const Medium& medium, const MediumPyramid& pyramid, const Imath::Box3d& box,
                               const ClearanceField& clearance, size_t count, const Progress& progress)
 {
     const double least = 1 / pyramid.extremes().sigma_t_high;

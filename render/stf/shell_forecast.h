@@ -1,7 +1,7 @@
 #pragma once
 
 #include "render/media/clearance_field.h"
-#include "render/media/grid_medium.h"
+#include "render/media/medium.h"
 #include "render/media/medium_pyramid.h"
 
 namespace scree {
@@ -28,7 +28,7 @@ struct ShellForecast {
 
 /// Walks from the faces of a box inwards, as of diffuse light; the same on any number of threads. count: of shells
 /// there are. Throws Cancelled.
-ShellForecast forecast_shells(const GridMedium& medium, const MediumPyramid& pyramid, const Imath::Box3d& box,
+ShellForecast forecast_shells(const Medium& medium, const MediumPyramid& pyramid, const Imath::Box3d& box,
                               const ClearanceField& clearance, size_t count, const Progress& progress);
 
 } // namespace scree

@@ -1,21 +1,24 @@
 #pragma once
 
+#include "base/enum_names.h"
+
 #include <cstdint>
-#include <string>
-#include <vector>
 
 namespace scree {
 
-/// How a walk through a shell is taken, each but the last a further approximation of the one before (Müller et al.
-/// 2016, section 5).
+/// How light crosses a shell (Müller et al. 2016, section 5). Each form but the last approximates the one before it.
 enum class StfForm : uint8_t {
-    full, ///< records: place, direction and scatterings of whole walks
-    cosine, ///< after two scatterings and more the direction is drawn by its cosine to the normal, whatever the place
-    hg, ///< and the walks are those of Henyey and Greenstein's phase function of the same mean cosine
-    interpolated, ///< and the shell is as large as fits, its walks those of the table's radii below and above
-    diffusion ///< what scatters at all as from an isotropic source in a diffusing ball: uniform over the shell, cosine
-              ///< about its normal (in the manner of Meng et al. 2015)
+    full, ///< records of whole walks: place, direction and number of scatterings (the paper's 4D STF)
+    cosine, ///< after two or more scatterings the direction is cosine-distributed about the normal (the paper's 2D STF)
+    hg, ///< the same, with walks of a Henyey-Greenstein phase function of equal mean cosine
+    interpolated, ///< the same, and the shell is as large as fits: walks are drawn from the two nearest tabulated radii
+    diffusion ///< the baseline of Meng et al. 2015: light that scatters leaves uniformly over the shell,
+              ///< cosine-distributed
 };
-inline const std::vector<std::string> stf_form_names{"full", "cosine", "hg", "interpolated", "diffusion"};
+inline const EnumNames<StfForm> stf_form_names{{StfForm::full, "full"},
+                                               {StfForm::cosine, "cosine"},
+                                               {StfForm::hg, "hg"},
+                                               {StfForm::interpolated, "interpolated"},
+                                               {StfForm::diffusion, "diffusion"}};
 
 } // namespace scree

@@ -30,7 +30,7 @@ void StressRun::add(const std::string& name, StressExtent extent, const std::fun
     family.cases.push_back(std::move(done));
 }
 
-std::string name_of(IntegratorKind kind) { return integrator_names[static_cast<size_t>(kind)]; }
+std::string name_of(IntegratorKind kind) { return integrator_names[kind]; }
 
 StressReport run_stress(const StressOptions& options, const Progress& progress)
 {

@@ -49,11 +49,12 @@ SceneDescription read_back(const StressScene& scene, const Placing& placing, con
 struct StressStage::Impl {
     ScratchFolder folder;
     WorldBuilder builder;
+    BuiltFrame built;
     RenderSetup setup;
 
     Impl(const StressScene& scene, const Placing& placing, const StressView& view, const Progress& progress)
-        : builder(read_back(scene, placing, view, folder.path())),
-          setup(builder, builder.build(0, progress), RenderJob{})
+        : builder(read_back(scene, placing, view, folder.path())), built(builder.build(0, progress)),
+          setup(builder, built, RenderJob{})
     {
     }
 };
@@ -67,7 +68,7 @@ StressStage::StressStage(const StressScene& scene, const Placing& placing, const
 StressStage::~StressStage() = default;
 
 const World& StressStage::world() const { return impl_->setup.world(); }
-const TransportPlan& StressStage::plan() const { return impl_->builder.plan(); }
+const TransportPlan& StressStage::plan() const { return impl_->built.plan; }
 
 StressPicture StressStage::render(const StressView& view, const Progress& progress) const
 {

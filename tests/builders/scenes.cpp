@@ -1,6 +1,7 @@
 #include "tests/builders/scenes.h"
 
 #include "render/build/shell_builder.h"
+#include "render/media/homogeneous_medium.h"
 
 namespace scree {
 
@@ -106,8 +107,8 @@ void TestScene::build()
         MediumRegion region{"medium", {}, medium.mesh.triangles, nullptr, nullptr, nullptr, medium.instead_of_grains};
         for (const V3d& p : medium.mesh.positions) region.positions.emplace_back(space.point(p));
         const V3d sigma_t = medium.sigma_t * space.world_length(1);
-        region.homogeneous = medium.table ? std::make_shared<HomogeneousMedium>(sigma_t, medium.albedo, medium.table)
-                                          : std::make_shared<HomogeneousMedium>(sigma_t, medium.albedo, medium.g);
+        region.medium = medium.table ? std::make_shared<HomogeneousMedium>(sigma_t, medium.albedo, medium.table)
+                                     : std::make_shared<HomogeneousMedium>(sigma_t, medium.albedo, medium.g);
         world_.regions.push_back(std::move(region));
     }
     for (Light& light : lights_) {

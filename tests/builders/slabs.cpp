@@ -37,7 +37,7 @@ GridSlab::GridSlab(double depth, double sigma_t, float albedo, double g, double 
     GridMediumOptions options;
     options.albedo = Color(albedo);
     options.g = g;
-    region.grid = std::make_shared<GridMedium>(make_grid_medium(grids, options, {}, {}));
+    region.medium = std::make_shared<GridMedium>(make_grid_medium(grids, options, {}, {}));
     for (const V3d& p : mesh.positions) region.positions.emplace_back(p);
     world.regions.push_back(std::move(region));
     world.lights = LightSet({Light{}}, 1);

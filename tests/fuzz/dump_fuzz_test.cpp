@@ -95,7 +95,7 @@ void mutate(std::string& bytes, std::mt19937_64& random)
 /// Reads everything; true when it could be read. A frame that is given must keep its promises.
 bool read_all(const std::string& file)
 {
-    DumpReadOptions options;
+    ParticleReadOptions options;
     options.radius = 1;
     try {
         const DumpSeries series = DumpSeries::open(file);

@@ -22,7 +22,7 @@ const std::string cube = "ITEM: BOX BOUNDS pp ff fs\n0 10\n-5 5\n2 4\n";
 
 class DumpReading : public testing::Test {
 protected:
-    ParticleFrame read(const std::string& text, const DumpReadOptions& options = {})
+    ParticleFrame read(const std::string& text, const ParticleReadOptions& options = {})
     {
         const DumpSeries series = DumpSeries::open(folder_.write("a.dump", text));
         warnings_ = series.warnings();
@@ -30,7 +30,7 @@ protected:
     }
     ParticleFrame read_unit(const std::string& text)
     {
-        DumpReadOptions options;
+        ParticleReadOptions options;
         options.radius = 1;
         return read(text, options);
     }
@@ -173,13 +173,13 @@ TEST_F(DumpReading, RadiusAndDiameterUnderTheirNames)
 TEST_F(DumpReading, RadiusFromOptions)
 {
     const std::string text = dump(cube, "id type x y z", {"1 1 0 0 0", "2 2 1 1 1", "3 7 1 1 1"});
-    DumpReadOptions options;
+    ParticleReadOptions options;
     options.radius = 0.5;
     options.radius_of_type[2] = 0.75;
     EXPECT_EQ(read(text, options).radius, (std::vector<float>{0.5f, 0.75f, 0.5f}));
 
     const auto error = test::input_error_of([&] {
-        DumpReadOptions partial;
+        ParticleReadOptions partial;
         partial.radius_of_type[2] = 0.75;
         read(text, partial);
     });
@@ -194,7 +194,7 @@ TEST_F(DumpReading, RadiusFromOptions)
 
 TEST_F(DumpReading, OptionsDoNotReplaceAColumn)
 {
-    DumpReadOptions options;
+    ParticleReadOptions options;
     options.radius = 9;
     EXPECT_EQ(read(dump(cube, "x y z radius", {"0 0 0 1"}), options).radius[0], 1.0f);
 }

@@ -131,7 +131,7 @@ TEST(GrainMediumFurnace, IsWhite)
     const Cored dark(constant, 2, EquivalentForm::formula, StfForm::full),
         bright(sampled, 2, EquivalentForm::formula, StfForm::full);
     ASSERT_EQ(dark.world.regions.size(), 1u);
-    EXPECT_NE(dark.world.regions[0].grid, nullptr); // of a list it varies
+    EXPECT_EQ(dark.world.regions[0].medium->uniform(), nullptr); // of a list it varies
     for (const uint32_t explicit_grains : {0u, all_grains}) {
         PathOptions options;
         options.explicit_grains = explicit_grains;
@@ -201,15 +201,15 @@ TEST(GrainMedium, OfAFillVariesAsItsMixtureDoes)
     };
     const World same = make(false), board = make(true);
     ASSERT_EQ(same.regions.size(), 1u);
-    EXPECT_NE(same.regions[0].homogeneous, nullptr);
+    ASSERT_NE(same.regions[0].medium->uniform(), nullptr);
     ASSERT_EQ(board.regions.size(), 1u);
-    ASSERT_NE(board.regions[0].grid, nullptr);
+    ASSERT_EQ(board.regions[0].medium->uniform(), nullptr);
     // Pure types in the middles of the cells: those of the homogeneous media.
-    const GridMedium& grid = *board.regions[0].grid;
+    const Medium& grid = *board.regions[0].medium;
     const std::array<double, 2> albedo{grid.albedo({20, 20, 20}).x, grid.albedo({-20, 20, 20}).x};
     EXPECT_NEAR(std::max(albedo[0], albedo[1]), 1, 1e-5);
     EXPECT_NEAR(std::min(albedo[0], albedo[1]), 0.5, 1e-5);
-    const double inner = same.regions[0].homogeneous->albedo().x;
+    const double inner = same.regions[0].medium->uniform()->albedo().x;
     EXPECT_TRUE(inner == 1 || std::abs(inner - 0.5) < 1e-5) << inner;
 }
 

@@ -48,7 +48,7 @@ Found look(const Fill& fill, const Light& light, bool nearest, bool shells, uint
     for (const V3d& p : mesh.positions) region.positions.emplace_back(p);
     GridMediumOptions options;
     options.nearest = nearest;
-    region.grid = std::make_shared<GridMedium>(make_grid_medium(grids, options, {}, {}));
+    region.medium = std::make_shared<GridMedium>(make_grid_medium(grids, options, {}, {}));
     world.regions.push_back(std::move(region));
     world.lights = LightSet({light}, 2);
     prepare_media(world, shells ? std::optional(StfForm::full) : std::nullopt);

@@ -105,9 +105,9 @@ TEST(ShellTracing, IsWhiteInAFurnaceInEveryForm)
             // scatterings near the shell are.
             const double off = strategy == DirectLight::scattering_only ? 1e-5 : systematic;
             EXPECT_LT(std::abs(e.mean() - 1), 4 * e.standard_error() + off)
-                << stf_form_names[static_cast<size_t>(form)] << ", strategy " << static_cast<int>(strategy);
-            std::printf("%s, strategy %d: %.5f +- %.5f\n", stf_form_names[static_cast<size_t>(form)].c_str(),
-                        static_cast<int>(strategy), e.mean(), e.standard_error());
+                << stf_form_names[form] << ", strategy " << static_cast<int>(strategy);
+            std::printf("%s, strategy %d: %.5f +- %.5f\n", stf_form_names[form].c_str(), static_cast<int>(strategy),
+                        e.mean(), e.standard_error());
         }
     }
 }
@@ -164,11 +164,10 @@ TEST(ShellTracing, WeighsLightByThePhaseFunctionThatRecordsAreDrawnFrom)
                 radiance.add(
                     trace_path(scene.world(), scene.tracer(), V3d(0), V3d(0, 0, -1), sampler, options).radiance.x);
             }
-            std::printf("%s, strategy %d: %.5f +- %.5f\n", stf_form_names[static_cast<size_t>(form)].c_str(),
-                        static_cast<int>(strategy), radiance.mean(), radiance.standard_error());
+            std::printf("%s, strategy %d: %.5f +- %.5f\n", stf_form_names[form].c_str(), static_cast<int>(strategy),
+                        radiance.mean(), radiance.standard_error());
         }
-        for (size_t i = 1; i < found.size(); ++i)
-            expect_equal(found[i], found[0], systematic, stf_form_names[static_cast<size_t>(form)]);
+        for (size_t i = 1; i < found.size(); ++i) expect_equal(found[i], found[0], systematic, stf_form_names[form]);
     }
 }
 

@@ -170,7 +170,7 @@ TEST_F(BenchCommand, SaysThatAReferenceIsOfAnotherScene)
 
 TEST_F(BenchCommand, SaysWhatAReferenceOfUnknownNoiseLeavesOpen)
 {
-    render_picture(scene_, [](RenderJob& job) { job.size = {24, 18}; });
+    render_picture(scene_, [](RenderJob& job) { job.set("--size", "24x18"); });
     ExrPlanes plain = read_exr_planes(folder_.path("out.exr"));
     std::erase_if(plain.planes, [](const auto& plane) { return plane.first.size() > 1; });
     plain.numbers.clear();
@@ -203,7 +203,7 @@ TEST_F(BenchCommand, SharesNoSampleWithAPictureOfTheSameSeed)
     const auto render = [&](uint64_t seed) {
         render_picture(scene_, [&](RenderJob& j) {
             j.spp = 1;
-            j.integrator = IntegratorKind::ept;
+            j.set("--integrator", "ept");
             j.options.seed = seed;
         });
         return read_reference(folder_.path("out.exr"), 40, 30).picture.a;
@@ -226,16 +226,16 @@ TEST_F(BenchCommand, SharesNoSampleWithAPictureOfTheSameSeed)
 TEST_F(BenchCommand, FindsABiasedMethod)
 {
     render_picture(scene_, [](RenderJob& job) {
-        job.size = {24, 18};
+        job.set("--size", "24x18");
         job.spp = 2000;
-        job.aov = {Aov::variance};
-        job.integrator = IntegratorKind::ept;
+        job.set("--aov", "variance");
+        job.set("--integrator", "ept");
     });
     BenchJob job = job_of(scene_, 0.5);
-    job.scene.size = {24, 18};
+    job.scene.set("--size", "24x18");
     job.reference = folder_.path("out.exr");
     EXPECT_FALSE(run_bench(job, Progress()).methods[0].estimate.squared_bias.is_above_zero());
-    job.scene.max_depth = 2; // leaves light out
+    job.scene.set("--max-depth", "2"); // leaves light out
     const ErrorEstimate biased = run_bench(job, Progress()).methods[0].estimate;
     EXPECT_TRUE(biased.squared_bias.is_above_zero())
         << biased.squared_bias.value << " +- " << biased.squared_bias.error;
@@ -247,7 +247,7 @@ TEST_F(BenchCommand, KeepsTheReferenceAndOldPagesWhenInterrupted)
 {
     BenchJob job = job_of(scene_, 0.2);
     job.title = "few";
-    job.scene.size = {24, 18};
+    job.scene.set("--size", "24x18");
     job.reference_seconds = 0.4;
     SuiteResult suite{"", 1, 0, {}};
     run_suite({job}, suite, folder_.path("out"), "", Progress());

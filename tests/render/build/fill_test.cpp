@@ -116,8 +116,7 @@ TEST(FillScene, IsAnotherWhenAFileOfItsMixtureIs)
         RenderJob job;
         job.scene = file;
         WorldBuilder builder(load_scene(job));
-        builder.build(0);
-        return builder.scene_hash();
+        return builder.build(0).hash;
     };
     const std::string random = R"({"kind": "random", "types": ["glass", "clay"], "weights": [1, 1], "seed": 5})";
     EXPECT_EQ(hash(random, "clay"), hash(random, "clay"));

@@ -22,7 +22,7 @@ std::shared_ptr<const World> build(const std::string& json, const std::filesyste
 {
     const JsonDocument document = JsonDocument::parse(json, "scene.json", folder);
     WorldBuilder builder(read_scene(document, folder / "scene.json"));
-    return builder.build(0);
+    return builder.build(0).world;
 }
 
 std::string scene_with(const std::string& rest)

@@ -8,6 +8,7 @@
 #include "render/equivalent/decay_constant.h"
 #include "render/gsdf/encounter.h"
 #include "render/gsdf/gsdf_builder.h"
+#include "render/media/homogeneous_medium.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
 #include "tests/builders/tile_beds.h"

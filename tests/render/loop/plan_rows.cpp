@@ -134,7 +134,7 @@ std::vector<PlanRow> plan_rows()
     planned("no grains", "nothing", {}, inside, false, "no path can be inside a grain and meet a surface");
     planned("a structure", "nothing", {}, "acceleration structure", true, "to be built by Embree");
     traced("a structure", "nothing", {}, "acceleration structure", true, "Embree");
-    for (const std::string& channel : aov_names) {
+    for (const std::string& channel : aov_names.words()) {
         planned("not asked", "nothing", {}, "channels " + channel, false, "not asked for");
         planned("asked", "nothing", all_channels, "channels " + channel, true, "asked for");
     }

@@ -249,7 +249,7 @@ TEST_F(PlanLines, TenOpaqueGrainsNeedNothing)
         return all;
     };
     const auto automatic = parts({});
-    for (const std::string& accuracy : accuracy_names) EXPECT_EQ(parts({"--accuracy", accuracy}), automatic);
+    for (const std::string& accuracy : accuracy_names.words()) EXPECT_EQ(parts({"--accuracy", accuracy}), automatic);
     EXPECT_EQ(parts(ept), automatic);
     std::set<std::string> built;
     for (const auto& [part, is_built] : automatic) {

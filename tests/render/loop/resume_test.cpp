@@ -94,7 +94,7 @@ TEST_F(PictureResumedOnOther, SeedIsRefused)
 }
 TEST_F(PictureResumedOnOther, SizeIsRefused)
 {
-    EXPECT_THAT(found([](RenderJob& job) { job.size = {41, 30}; }), HasSubstr(other_));
+    EXPECT_THAT(found([](RenderJob& job) { job.set("--size", "41x30"); }), HasSubstr(other_));
 }
 TEST_F(PictureResumedOnOther, CropIsRefused)
 {
@@ -102,7 +102,7 @@ TEST_F(PictureResumedOnOther, CropIsRefused)
 }
 TEST_F(PictureResumedOnOther, DepthLimitIsRefused)
 {
-    EXPECT_THAT(found([](RenderJob& job) { job.max_depth = 3; }), HasSubstr(other_));
+    EXPECT_THAT(found([](RenderJob& job) { job.set("--max-depth", "3"); }), HasSubstr(other_));
 }
 TEST_F(PictureResumedOnOther, DirectLightIsRefused)
 {
@@ -111,7 +111,7 @@ TEST_F(PictureResumedOnOther, DirectLightIsRefused)
 }
 TEST_F(PictureResumedOnOther, SceneIsRefused)
 {
-    EXPECT_THAT(found([](RenderJob& job) { job.overrides = {{"camera.fov", "41"}}; }), HasSubstr(other_));
+    EXPECT_THAT(found([](RenderJob& job) { job.overrides = {{"camera.fov", "41", ""}}; }), HasSubstr(other_));
 }
 
 TEST_F(PictureResumedOnOther, RadiusIsRefused)

@@ -259,9 +259,9 @@ TEST_F(Plans, TheUserHasTheLastWord)
             EXPECT_EQ(plan(kind).has_shells, shells);
             EXPECT_EQ(plan(kind, Accuracy::reference).has_shells, shells);
         }
-        for (size_t form = 0; form < stf_form_names.size(); ++form) {
-            integrator.stf_form = static_cast<StfForm>(form);
-            EXPECT_EQ(plan(kind).stf_form, static_cast<StfForm>(form));
+        for (const auto& [form, name] : stf_form_names) {
+            integrator.stf_form = form;
+            EXPECT_EQ(plan(kind).stf_form, form);
         }
         integrator.medium_form = EquivalentForm::formula;
         EXPECT_EQ(plan(kind).medium_form, EquivalentForm::formula);

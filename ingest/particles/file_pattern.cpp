@@ -1,4 +1,4 @@
-#include "ingest/particles/dump_pattern.h"
+#include "ingest/particles/file_pattern.h"
 
 #include "base/error.h"
 #include "base/text.h"

@@ -1,0 +1,88 @@
+#include "render/scene/load_scene.h"
+
+#include "base/error.h"
+#include "base/json.h"
+#include "base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace scree {
+
+namespace {
+
+constexpr int64_t most_pixels = 65536;
+
+std::vector<std::string> as_it_stands(const std::string& text) { return {text}; }
+
+std::vector<std::string> on_or_off(const std::string& text)
+{
+    return {text == "on" ? "true" : text == "off" ? "false" : text};
+}
+
+std::vector<std::string> size_json(const std::string& text)
+{
+    const size_t x = text.find('x');
+    const auto width = to_int64(text.substr(0, x));
+    const auto height = x == std::string::npos ? std::nullopt : to_int64(text.substr(x + 1));
+    if (!width || !height || *width < 1 || *height < 1 || *width > most_pixels || *height > most_pixels)
+        throw InputError("--size", "'" + text + "'",
+                         fmt::format("WIDTHxHEIGHT, e.g. 640x480, whole numbers in 1..{}", most_pixels));
+    return {fmt::format("[{},{}]", *width, *height)};
+}
+
+std::vector<std::string> comma_separated(const std::string& text)
+{
+    std::vector<std::string> words;
+    std::istringstream in(text);
+    for (std::string word; std::getline(in, word, ',');) words.push_back(word);
+    return words;
+}
+
+} // namespace
+
+std::vector<SceneOverride> SceneSwitch::overrides(const std::string& text) const
+{
+    std::vector<SceneOverride> replaced;
+    for (const std::string& json : to_json(text)) replaced.push_back({path, json, flag});
+    return replaced;
+}
+
+const std::vector<SceneSwitch>& scene_switches()
+{
+    static const std::vector<SceneSwitch> switches = [] {
+        std::vector<SceneSwitch> all{
+            {"--size", "Size of the picture, WIDTHxHEIGHT", "film.size", size_json},
+            {"--aov", fmt::format("More channels: {}", fmt::join(aov_names.words(), ",")), "film.aov/-",
+             comma_separated},
+        };
+        for (const IntegratorKey& key : integrator_keys()) {
+            const bool is_switch = std::string(key.key) == "shells";
+            all.push_back(
+                {key.flag, key.help, std::string("integrator.") + key.key, is_switch ? on_or_off : as_it_stands});
+        }
+        return all;
+    }();
+    return switches;
+}
+
+std::vector<SceneOverride> switch_overrides(const std::string& flag, const std::string& text)
+{
+    return std::ranges::find(scene_switches(), flag, &SceneSwitch::flag)->overrides(text);
+}
+
+SceneDescription load_scene(const std::filesystem::path& file, const std::vector<SceneOverride>& overrides,
+                            const std::vector<SceneOverride>& switches)
+{
+    JsonDocument document = JsonDocument::load(file);
+    for (const SceneOverride& value : overrides) document.override_value(value.path, value.json, value.flag);
+    const std::string canonical = document.canonical();
+    for (const SceneOverride& value : switches) document.override_value(value.path, value.json, value.flag);
+    SceneDescription scene = read_scene(document, file);
+    scene.canonical = canonical;
+    return scene;
+}
+
+} // namespace scree
