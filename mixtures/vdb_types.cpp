@@ -55,7 +55,7 @@ TypeTable read_vdb_types(const std::filesystem::path& path, const std::string& t
             if (types_at == points::AttributeSet::INVALID_POS ||
                 leaf->constAttributeArray(types_at).valueType() != "int32")
                 throw InputError(place, "points without an int32 attribute " + type,
-                                 "the type of each point in an int32 attribute",
+                                 "the type of each point as int32 " + type,
                                  "\"column\" says which attribute holds the types");
             const points::AttributeHandle<int32_t> types(leaf->constAttributeArray(types_at));
             for (auto i = leaf->beginIndexAll(); i; ++i) {
