@@ -6,7 +6,7 @@ AliasTable::AliasTable(std::span<const double> weights) : slots_(weights.size())
 {
     double sum = 0;
     for (const double w : weights) sum += w;
-    std::vector<double> share(weights.size(), 1.0); // of the mean
+    std::vector<double> share(weights.size(), 1.0); // weight over the mean weight
     if (sum > 0) {
         for (size_t i = 0; i < share.size(); ++i) share[i] = weights[i] / sum * static_cast<double>(weights.size());
     }
@@ -22,7 +22,7 @@ AliasTable::AliasTable(std::span<const double> weights) : slots_(weights.size())
             small.push_back(l);
         }
     }
-    // What is left is full but for rounding.
+    // The remaining shares are 1 up to rounding.
     for (const uint32_t i : small) slots_[i] = {1, i};
     for (const uint32_t i : large) slots_[i] = {1, i};
 }

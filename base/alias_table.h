@@ -6,11 +6,11 @@
 
 namespace scree {
 
-/// Draws indices by weight in constant time (Walker 1977; made as Vose 1991 does).
+/// Draws indices with probabilities proportional to weights, in constant time (Walker 1977; construction of Vose 1991).
 class AliasTable {
 public:
     AliasTable() = default;
-    /// weights: not negative, finite, at most 2^20 of them; with a sum of 0 all are as likely.
+    /// weights: finite, not negative, at most 2^20 of them; if their sum is 0, all indices are equally likely.
     explicit AliasTable(std::span<const double> weights);
 
     uint64_t bytes() const { return slots_.size() * sizeof(Slot); }
@@ -24,7 +24,7 @@ public:
 
 private:
     struct Slot {
-        float own = 1; ///< chance of the slot's own index; else the other
+        float own = 1; ///< probability of the slot's own index; otherwise `other` is drawn
         uint32_t other = 0;
     };
     std::vector<Slot> slots_;

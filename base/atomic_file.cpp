@@ -23,7 +23,7 @@ AtomicFile::AtomicFile(std::filesystem::path target) : target_(std::move(target)
         throw InputError(target_.string(), fmt::format("no folder '{}'", folder.string()), "a folder that exists",
                          "make the folder first");
 
-    // The process and a counter make the name ours alone; O_EXCL makes sure.
+    // The process id and a counter make the name unique; O_EXCL guarantees it.
     static std::atomic<unsigned> counter{0};
     for (int attempt = 0; attempt < 100; ++attempt) {
         temporary_ = folder / fmt::format(".{}.{}-{}.tmp{}", target_.stem().string(), ::getpid(), counter++,
@@ -46,7 +46,7 @@ AtomicFile::~AtomicFile()
 
 void AtomicFile::commit()
 {
-    // The data must be on disk before the name is: else a crash leaves a whole name on half a file.
+    // The data must be on disk before the rename: otherwise a crash can leave half a file under the final name.
     const int descriptor = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor >= 0) {
         ::fsync(descriptor);
@@ -64,7 +64,7 @@ void write_whole(const std::filesystem::path& path, std::string_view text)
     std::ofstream out(file.temporary(), std::ios::binary);
     out << text;
     out.close();
-    if (!out) throw InputError(path.string(), "a file that cannot be written in full", "room for it");
+    if (!out) throw InputError(path.string(), "a file that cannot be written in full", "enough free space on the disk");
     file.commit();
 }
 

@@ -8,16 +8,16 @@ namespace scree {
 /// A file that appears whole or not at all: written under another name in the same folder, then renamed.
 class AtomicFile {
 public:
-    /// target: where the file shall appear; an existing file there stays until `commit`.
+    /// target: path of the finished file; an existing file there stays until `commit`.
     /// Throws InputError when the folder does not exist or cannot be written.
     explicit AtomicFile(std::filesystem::path target);
 
-    /// Removes what was written unless it was committed.
+    /// Removes the temporary file unless it was committed.
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
-    /// Where to write meanwhile: beside the target, with the target's extension (some writers choose the format by it).
+    /// The path to write to: in the target's folder, with its extension (some writers choose the format by extension).
     const std::filesystem::path& temporary() const { return temporary_; }
 
     /// Renames the finished file to its target. Throws InputError when that fails.

@@ -22,7 +22,7 @@ namespace {
 
 constexpr size_t packed_buffer_size = size_t{1} << 18;
 
-/// "did you mean" over the names that do exist beside a missing file.
+/// A "did you mean" hint from the names in a missing file's folder.
 std::string near_names(const std::filesystem::path& path)
 {
     std::vector<std::string> names;
@@ -36,7 +36,7 @@ std::string near_names(const std::filesystem::path& path)
     return hint.empty() ? hint : hint.substr(2);
 }
 
-/// The bytes of a file as they lie on disk.
+/// Reads the bytes of a file as stored on disk.
 class RawFile {
 public:
     explicit RawFile(const std::filesystem::path& path) : path_(path)
@@ -52,7 +52,7 @@ public:
             if (S_ISDIR(status.st_mode)) {
                 ::close(descriptor_);
                 throw InputError(path.string(), "a folder", "a file to read",
-                                 "for a file per frame give a pattern: 'folder/*.dump'");
+                                 "for one file per frame, give a pattern such as 'folder/*.dump'");
             }
             size_ = static_cast<uint64_t>(status.st_size);
         }
@@ -79,7 +79,7 @@ public:
     void seek(uint64_t offset)
     {
         if (::lseek(descriptor_, static_cast<off_t>(offset), SEEK_SET) < 0)
-            throw InputError(path_.string(), std::strerror(errno), "a file that can be read at any place");
+            throw InputError(path_.string(), std::strerror(errno), "a file that can be read from any position");
         position_ = offset;
     }
 
@@ -92,7 +92,7 @@ private:
     uint64_t size_ = 0, position_ = 0;
 };
 
-/// How the bytes of a file become the bytes a reader sees.
+/// Turns the bytes of a file into the bytes that a reader gets.
 class Decoder {
 public:
     virtual ~Decoder() = default;
@@ -108,7 +108,7 @@ public:
     PlainDecoder(std::unique_ptr<RawFile> file, std::string head) : file_(std::move(file)), head_(std::move(head)) {}
     size_t read(char* out, size_t size) override
     {
-        // The few bytes that were read to tell the kind come first: a pipe cannot be rewound.
+        // The bytes read to detect the format come first: a pipe cannot be rewound.
         const size_t from_head = std::min(size, head_.size() - head_used_);
         std::memcpy(out, head_.data() + head_used_, from_head);
         head_used_ += from_head;
@@ -147,7 +147,7 @@ private:
     size_t position_ = 0;
 };
 
-/// What gzip and Zstandard share: a buffer of packed bytes.
+/// Common part of the gzip and Zstandard decoders: a buffer of packed bytes.
 class PackedDecoder : public Decoder {
 public:
     PackedDecoder(std::unique_ptr<RawFile> file, const std::string& head)
@@ -160,7 +160,7 @@ public:
     double fraction() const override { return file_->fraction(); }
 
 protected:
-    /// Whether there are packed bytes left to look at.
+    /// Reads more packed bytes when the buffer is empty; returns whether any are left.
     bool refill()
     {
         if (begin_ < end_) return true;
@@ -219,7 +219,7 @@ public:
     }
 
 private:
-    /// Looks at what follows a member: another one, padding with zeros (as tapes leave it), or something foreign.
+    /// Handles the bytes after a member: another member, padding with zeros (as tapes leave it), or foreign bytes.
     bool start_member()
     {
         if (members_ > 0 && buffer_[begin_] == 0) {
@@ -255,7 +255,7 @@ public:
     {
         size_t done = 0;
         while (done < size && !finished_) {
-            // Without new input the decoder may still hold output, so it is asked before the file's end counts.
+            // The decoder may still hold output when there is no new input, so it is called even at the file's end.
             const bool more = refill();
             ZSTD_inBuffer input{buffer_.data(), end_, begin_};
             ZSTD_outBuffer output{out, size, done};

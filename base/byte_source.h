@@ -8,40 +8,40 @@
 
 namespace scree {
 
-/// A file as a stream of bytes; gzip (any number of members) and Zstandard are unpacked on the way.
+/// Reads a file as a stream of bytes; gzip (any number of members) and Zstandard data are unpacked.
 ///
-/// What a file is, is told by its first bytes and not by its name. Memory does not depend on the file's size.
+/// The file's first bytes decide its format, not its name. Memory use does not depend on the file's size.
 class ByteSource {
 public:
-    /// Throws InputError when the file is missing, unreadable, no file, or packed in another way (xz, bzip2, zip).
+    /// Throws InputError when the file is missing, unreadable, a folder, or packed in another format (xz, bzip2, zip).
     explicit ByteSource(const std::filesystem::path& path);
 
-    /// The bytes of `text`, as if they were the plain file `path`.
+    /// Reads the bytes of `text` as if they were the unpacked file `path`.
     ByteSource(std::filesystem::path path, std::shared_ptr<const std::string> text);
 
     ~ByteSource();
     ByteSource(ByteSource&&) noexcept;
     ByteSource& operator=(ByteSource&&) noexcept;
 
-    /// Fills `out` with `size` bytes; returns fewer only at the end.
+    /// Fills `out` with `size` bytes and returns their number, which is smaller than `size` only at the end.
     /// Throws InputError when packed data are damaged; packed data that merely end early set `truncated()`.
     size_t read(char* out, size_t size);
 
-    /// Goes to a place in the bytes; only when `seekable()`.
+    /// Moves to an offset in bytes; allowed only when `seekable()`.
     void seek(uint64_t offset);
     bool seekable() const;
 
-    /// Whether a packed stream ended in its middle; known once `read` came to the end.
+    /// Whether a packed stream ended early; known once `read` has reached the end.
     bool truncated() const;
 
-    /// The part of the file (as it lies on disk) that was read, 0..1.
+    /// The fraction of the bytes on disk that was read, 0..1.
     double fraction() const;
 
     const std::filesystem::path& path() const;
 
-    /// From here on keeps a copy of what `read` returns, unless it becomes larger than `limit` bytes.
+    /// From now on keeps a copy of the bytes that `read` returns, unless the copy becomes larger than `limit` bytes.
     void keep(size_t limit);
-    /// Everything read since `keep`, or nothing when that was too much.
+    /// All bytes read since `keep`, or null when they were more than its limit.
     std::shared_ptr<const std::string> kept() const;
 
 private:

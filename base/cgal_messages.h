@@ -2,7 +2,7 @@
 
 namespace scree {
 
-/// Keeps CGAL from writing to standard error; its failures still arrive as exceptions. Cheap to call again.
+/// Keeps CGAL from writing to standard error; CGAL's failures still arrive as exceptions. Repeated calls are cheap.
 void silence_cgal();
 
 } // namespace scree

@@ -7,14 +7,14 @@
 
 namespace scree {
 
-/// Shows progress on standard error: a bar with the time left on a terminal, else a line per 5 % or per minute.
+/// Shows progress on standard error: on a terminal a bar with the time left, otherwise one line per 5 % or per minute.
 class ConsoleProgress {
 public:
-    /// quiet: shows nothing.
+    /// quiet: show nothing.
     explicit ConsoleProgress(bool quiet);
     ~ConsoleProgress();
 
-    /// To be handed to the work; lives as long as this object.
+    /// The Progress to pass to the work; valid as long as this object.
     Progress& progress();
     /// Text shown before the stage, e.g. "frame 3/10".
     void set_prefix(const std::string& prefix);

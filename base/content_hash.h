@@ -28,7 +28,7 @@ uint64_t hash_vector(const std::vector<T>& v, uint64_t seed)
     return hash_bytes(v.data(), v.size() * sizeof(T), seed);
 }
 
-/// Of a file's bytes; the seed where it cannot be read.
+/// Hash of a file's bytes; the seed itself when the file cannot be read.
 inline uint64_t hash_file(const std::filesystem::path& file, uint64_t seed)
 {
     std::ifstream in(file, std::ios::binary);

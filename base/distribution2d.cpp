@@ -4,7 +4,7 @@ namespace scree {
 
 namespace {
 
-/// Turns n cell values into n + 1 cumulated sums from 0 to 1 (uniform when all are zero); returns their total.
+/// Turns n cell values into n + 1 cumulative sums from 0 to 1 (uniform when all are zero); returns the values' total.
 template <class Values>
 double cumulate(const Values& value, size_t n, double* out)
 {
@@ -17,7 +17,7 @@ double cumulate(const Values& value, size_t n, double* out)
     return total;
 }
 
-/// Index of the cell that holds u and the place inside it, of n cells with cumulated sums c.
+/// Index of the cell that holds u and the position of u inside it (0..1), for n cells with cumulative sums c.
 std::pair<size_t, double> find_cell(const double* c, size_t n, double u)
 {
     const auto index = static_cast<size_t>(std::upper_bound(c, c + n + 1, u) - c);

@@ -10,7 +10,7 @@ namespace scree {
 class Distribution2D {
 public:
     Distribution2D() = default;
-    /// values: height * width non-negative numbers; all zero is uniform.
+    /// values: height * width non-negative numbers; if all are zero, the density is uniform.
     Distribution2D(const std::vector<float>& values, size_t width, size_t height);
 
     /// A point of the unit square (x along a row) with density `pdf(point)`.
@@ -20,8 +20,8 @@ public:
 
 private:
     size_t width_ = 0, height_ = 0;
-    std::vector<double> rows_; // height + 1 cumulated sums of the rows, the last is 1
-    std::vector<double> cells_; // height * (width + 1) cumulated sums within each row, each row's last is 1
+    std::vector<double> rows_; // height + 1 cumulative sums of the rows, the last is 1
+    std::vector<double> cells_; // height * (width + 1) cumulative sums within each row, each row's last is 1
 };
 
 } // namespace scree

@@ -6,12 +6,12 @@
 
 namespace scree {
 
-/// Input that cannot be used, told so that it can be mended.
+/// An error in the user's input, described so that the user can correct it.
 ///
-/// Every room throws this for anything a user handed in; the program prints it and exits with 2.
+/// Every library of Scree throws it for unusable input; the program prints it and exits with status 2.
 class InputError : public std::runtime_error {
 public:
-    /// place: file, "file:line" or "file: /json/path"; found and expected: what stood there and what should;
+    /// place: file, "file:line" or "file: /json/path"; found: what is there; expected: what should be there;
     /// hint: what to try (may be empty).
     InputError(std::string place, std::string found, std::string expected, std::string hint = "");
 

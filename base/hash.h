@@ -19,7 +19,7 @@ constexpr uint64_t mix64(uint64_t x)
     return x;
 }
 
-/// The part of `hash_index` that does not depend on the index, for loops over many.
+/// The part of `hash_index` that does not depend on the index, for loops over many indices.
 constexpr uint64_t hash_key(uint64_t seed, uint64_t stream = 0)
 {
     return mix64(seed * 0x9e3779b97f4a7c15ull + stream + 1);
@@ -31,7 +31,7 @@ constexpr uint64_t hash_with_key(uint64_t index, uint64_t key)
     return mix64(mix64(index + 0x9e3779b97f4a7c15ull) ^ key);
 }
 
-/// Hash of an index under a seed and a stream (which of the several random things of one grain is meant).
+/// Hash of an index with a seed and a stream; the stream selects one of several random quantities of a grain.
 ///
 /// mix64(mix64(index + G) ^ mix64(seed G + stream + 1)), G = 0x9e3779b97f4a7c15 (2^64 over the golden ratio), modulo
 /// 2^64.

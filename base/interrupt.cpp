@@ -9,7 +9,7 @@ namespace scree {
 
 namespace {
 
-// A signal handler can reach nothing else.
+// Global, because a signal handler cannot reach anything else.
 std::atomic<Progress*> guarded{nullptr};
 
 void on_signal(int)

@@ -4,8 +4,8 @@
 
 namespace scree {
 
-/// While it lives, Ctrl-C (and SIGTERM) cancels `progress`; a second one ends the program at once with status 130.
-/// One at a time.
+/// While this object exists, Ctrl-C (or SIGTERM) cancels `progress`; a second signal ends the program at once with
+/// status 130. Only one may exist at a time.
 class InterruptGuard {
 public:
     explicit InterruptGuard(Progress& progress);

@@ -159,7 +159,7 @@ JsonValue JsonObject::require(const std::string& key)
 {
     auto value = find(key);
     if (!value) {
-        // A misspelt key explains the missing one best.
+        // A misspelt key is the best explanation of a missing key.
         for (const auto& item : value_.value_->items()) {
             if (!did_you_mean(item.key(), {key}).empty() &&
                 std::find(known_.begin(), known_.end(), item.key()) == known_.end()) {
@@ -223,7 +223,8 @@ JsonDocument JsonDocument::load(const std::filesystem::path& file)
     std::ifstream in(file, std::ios::binary);
     std::error_code ignored;
     if (!in || std::filesystem::is_directory(file, ignored)) {
-        throw InputError(file.string(), std::filesystem::exists(file, ignored) ? "no readable file" : "no such file",
+        throw InputError(file.string(),
+                         std::filesystem::exists(file, ignored) ? "a file that cannot be read" : "no such file",
                          "a JSON file");
     }
     std::ostringstream text;

@@ -18,7 +18,7 @@ namespace scree {
 
 class JsonObject;
 
-/// A value inside a JsonDocument together with its place, so that every complaint can name it.
+/// A value inside a JsonDocument together with its place, so that every error message can name the place.
 ///
 /// A view: valid while the document lives. The typed getters throw InputError naming file, JSON path, found, expected.
 class JsonValue {
@@ -33,7 +33,7 @@ public:
     int64_t integer(int64_t lo, int64_t hi) const;
     bool boolean() const;
     std::string string() const;
-    /// One of `options`, as its index.
+    /// The index in `options` of this value, a string.
     size_t choice(const std::vector<std::string>& options) const;
     template <class E>
     E choice(const EnumNames<E>& names) const
@@ -49,9 +49,9 @@ public:
 
     /// The file and JSON path, e.g. "scene.json: /grains/types/glass".
     std::string place() const;
-    /// The folder relative paths are relative to.
+    /// The folder from which relative paths start.
     const std::filesystem::path& folder() const;
-    /// `string()` as a path, relative ones taken from `folder()`.
+    /// `string()` as a path; a relative path starts from `folder()`.
     std::filesystem::path path() const;
     /// The value as compact text, shortened for messages.
     std::string text() const;
@@ -76,10 +76,10 @@ public:
     std::optional<JsonValue> find(const std::string& key);
     /// Throws when the key is missing.
     JsonValue require(const std::string& key);
-    /// All keys, in order of name; counts them as asked for. For objects that map names.
+    /// All keys, sorted; all of them count as asked for. For objects whose keys are names.
     std::vector<std::string> take_keys();
     const JsonValue& value() const { return value_; }
-    /// Throws InputError for the first key nobody asked for, with the nearest one that exists.
+    /// Throws InputError for the first key that nobody asked for; suggests the nearest key that was asked for.
     void done() const;
 
 private:
@@ -97,7 +97,7 @@ public:
     static JsonDocument parse(const std::string& text, const std::string& name, const std::filesystem::path& folder);
 
     JsonValue root() const;
-    /// The text as compact JSON, keys sorted: the same for every layout and comment.
+    /// The document as compact JSON with sorted keys; layout and comments make no difference.
     std::string canonical() const;
     /// Replaces (or adds) the value at a path such as "camera.fov" or "/camera/fov"; "-" is the place after a list's
     /// last.

@@ -88,7 +88,7 @@ LineBlocks LineReader::next_block(uint64_t max_lines, std::string_view stop)
 
     const size_t first = find_line_end(result.terminated);
     if (first == 0) return result;
-    // An unterminated line is the file's last, so that nothing follows it in the buffer.
+    // An unterminated line is the file's last, so nothing follows it in the buffer.
     if (!result.terminated) buffer_[end_++] = '\n';
 
     const char* p = buffer_.data() + begin_;

@@ -13,10 +13,10 @@ namespace scree {
 struct TextLine {
     std::string_view text;
     uint64_t number = 0; ///< from 1
-    bool terminated = true; ///< false: the file ends where the line does, so that the line may be cut
+    bool terminated = true; ///< false: the file ends without a line end, so the line may be cut off
 };
 
-/// Whole lines in one piece of memory; each ends with '\n', also when the file's last line does not.
+/// Whole lines in one piece of memory; each ends with '\n', even if the file's last line has no line end.
 struct LineBlock {
     std::string_view text;
     uint64_t first_line = 0; ///< number of the first line, from 1
@@ -25,15 +25,15 @@ struct LineBlock {
 
 /// Consecutive blocks of lines.
 struct LineBlocks {
-    std::vector<LineBlock> blocks; ///< of some 100 kB each: work for several threads
-    uint64_t lines = 0; ///< in all
+    std::vector<LineBlock> blocks; ///< about 100 kB each, so that several threads can share the work
+    uint64_t lines = 0; ///< in all blocks
     bool terminated = true; ///< false: the last line is the file's last and had no line end
 };
 
-/// A file line by line, or by many lines at once, with line numbers and bounded memory.
+/// Reads a file line by line, or many lines at once, with line numbers and bounded memory.
 class LineReader {
 public:
-    /// What can stand in one line; a file with a longer one is no text file.
+    /// The longest accepted line, in bytes; a file with a longer line is not a text file.
     static constexpr size_t longest_line = size_t{1} << 20;
 
     explicit LineReader(ByteSource source);
@@ -42,8 +42,8 @@ public:
     /// Throws InputError when a line is longer than `longest_line`.
     std::optional<TextLine> next();
 
-    /// Up to max_lines of the lines that follow: as many as are at hand, and at least one, unless the file ends or
-    /// a line that begins with `stop` comes. Valid until the next call. Throws InputError as `next` does.
+    /// The next lines, at most max_lines, before a line that begins with `stop`: as many as are in the buffer, and at
+    /// least one unless such a line or the file's end comes next. Valid until the next call. Throws like `next`.
     LineBlocks next_block(uint64_t max_lines, std::string_view stop);
 
     /// Where the next line begins, in unpacked bytes.
@@ -51,8 +51,8 @@ public:
     /// The number of the next line, from 1.
     uint64_t line() const { return line_; }
 
-    /// Goes on to `offset`, which is where line `line` begins; returns false when the file ends before it.
-    /// Only forward when the source is packed.
+    /// Moves to `offset`, where line `line` begins; returns false when the file ends before it.
+    /// A packed source can only move forward.
     bool skip_to(uint64_t offset, uint64_t line);
 
     const ByteSource& source() const { return source_; }
@@ -65,7 +65,7 @@ private:
 
     ByteSource source_;
     std::vector<char> buffer_;
-    size_t begin_ = 0, end_ = 0; ///< the bytes at hand
+    size_t begin_ = 0, end_ = 0; ///< the unread bytes in buffer_
     size_t chunk_;
     bool at_end_ = false;
     uint64_t offset_ = 0, line_ = 1;

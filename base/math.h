@@ -22,12 +22,12 @@ using Real = double;
 using Real = float;
 #endif
 
-/// Light, and what multiplies it at one place. Single precision, but in a build that checks it against double
-/// (SCREE_DOUBLE).
+/// RGB light, or a factor that multiplies light at one point. Single precision, except in a build that checks it
+/// against double precision (SCREE_DOUBLE).
 using Color = Imath::Color3<Real>;
 
-/// What adds up along a path: its light, its weight, and what a scattering leaves of that. Of an albedo near 1 single
-/// precision keeps little of 1 - albedo (at 1 - 1e-8 nothing).
+/// RGB values that accumulate along a path: its light, its weight, and the albedo factor of every scattering event.
+/// In double, because for an albedo near 1 single precision keeps little of 1 - albedo (nothing at 1 - 1e-8).
 using Weight = Imath::Color3<double>;
 
 inline constexpr double pi = std::numbers::pi;
@@ -46,7 +46,7 @@ bool is_black(const Imath::Color3<T>& c)
 
 inline Weight exp(const Weight& c) { return {std::exp(c.x), std::exp(c.y), std::exp(c.z)}; }
 
-/// sqrt of what rounding may have made slightly negative.
+/// sqrt of a number that rounding may have made slightly negative.
 inline double safe_sqrt(double x) { return std::sqrt(std::max(0.0, x)); }
 
 /// Right-handed orthonormal frame around a unit normal (Duff et al. 2017, JCGT 6(1)).

@@ -25,7 +25,7 @@ constexpr std::array<uint8_t, 256> permutation{
     181, 199, 106, 157, 184, 84,  204, 176, 115, 121, 50,  45,  127, 4,   150, 254, 138, 236, 205, 93,  222, 114,
     67,  29,  24,  72,  243, 141, 128, 195, 78,  66,  215, 61,  156, 180};
 
-/// Gradients 0..15. A product with 0 adds exactly nothing, so that the dot product has the bits of +-u +- v.
+/// Gradients 0..15. A product with 0 adds exactly nothing, so the dot product has the same bits as +-u +- v.
 constexpr std::array<std::array<double, 3>, 16> gradients{{{1, 1, 0},
                                                            {-1, 1, 0},
                                                            {1, -1, 0},
@@ -52,7 +52,7 @@ double along_gradient(unsigned hash, double x, double y, double z)
     return g[0] * x + g[1] * y + g[2] * z;
 }
 
-/// floor(x) mod 256, of a floor within 2^52.
+/// floor mod 256; |floor| is below 2^52.
 unsigned wrap(double floor) { return static_cast<unsigned>(static_cast<int64_t>(floor) & 255); }
 
 constexpr size_t sample_count = size_t{1} << 19;
@@ -61,7 +61,7 @@ constexpr size_t sample_count = size_t{1} << 19;
 
 double improved_noise(double x, double y, double z)
 {
-    constexpr double limit = 0x1p52; // whole numbers from here on
+    constexpr double limit = 0x1p52; // from here on all doubles are whole numbers
     if (!(std::abs(x) < limit && std::abs(y) < limit && std::abs(z) < limit)) return 0;
     const double fx = std::floor(x), fy = std::floor(y), fz = std::floor(z);
     const unsigned X = wrap(fx), Y = wrap(fy), Z = wrap(fz);
@@ -101,7 +101,8 @@ FractalNoise::FractalNoise(const NoiseOptions& options) : scale_(options.scale),
 
 std::vector<double> FractalNoise::sample() const
 {
-    // The additive recurrence of the root of g^4 = g + 1 fills the cube evenly (Roberts 2018). The scale cancels.
+    // The additive recurrence of the root of g^4 = g + 1 fills the cube evenly (Roberts 2018). The scale and the offset
+    // do not change the fractions of space, so they are dropped.
     constexpr double g = 1.2207440846057596;
     const FractalNoise unit = [this] {
         FractalNoise copy = *this;
@@ -123,7 +124,7 @@ std::vector<double> FractalNoise::quantiles(std::span<const double> fractions) c
 {
     std::vector<double> values, result;
     for (const double f : fractions) {
-        // All and nothing must be exact, also where the places of the sample missed the extremes.
+        // The fractions 0 and 1 must be exact, even if the sample missed the extremes of the noise.
         if (f <= 0 || f >= 1) {
             result.push_back(f <= 0 ? -2 : 2);
             continue;

@@ -8,26 +8,27 @@
 
 namespace scree {
 
-/// Improved noise (Perlin 2002): smooth, about -1..1, 0 at whole numbers, of period 256 along each axis.
+/// Improved noise (Perlin 2002): smooth, about -1..1, 0 at integer points, period 256 along each axis.
 ///
-/// With X = floor(x) mod 256, x its fraction and f(t) = t^3 (t (6 t - 15) + 10): trilinear interpolation by f(x), f(y),
-/// f(z), along x first, then y, then z, of the dot products of the offsets from the cell's corners with their
-/// gradients; corner (X, Y, Z) has gradient number p[p[p[X] + Y] + Z] mod 16, where p is the published permutation of
-/// 0..255, indices taken mod 256, and the gradients are the 12 edges of the cube, four of them twice. In double and in
-/// this order: the same bits everywhere; noise(3.14, 42, 7) = 0.13691995878400012. Places past 2^52 give 0.
+/// Let X = floor(x) mod 256 and x be replaced by its fraction; the same for y and z. Corner (X, Y, Z) of the cell has
+/// gradient number p[p[p[X] + Y] + Z] mod 16; p is the published permutation of 0..255, its indices are taken mod 256,
+/// and the gradients are the 12 edges of the cube, four of them twice. The noise interpolates the dot products of the
+/// gradients with the offsets from their corners: trilinearly by f(x), f(y), f(z), along x first, then y, then z, where
+/// f(t) = t^3 (t (6 t - 15) + 10). Double precision and this order give the same bits everywhere:
+/// noise(3.14, 42, 7) = 0.13691995878400012. Coordinates past 2^52 give 0.
 double improved_noise(double x, double y, double z);
 
-/// How octaves of noise are laid over a place.
+/// Parameters of FractalNoise.
 struct NoiseOptions {
     Imath::V3d scale{1}; ///< lattice width of the first octave, per axis, in units of length
     Imath::V3d offset{0}; ///< added after scaling, in lattice cells
     int octaves = 1;
-    double lacunarity = 2; ///< frequency of an octave over that of the one before
-    double gain = 0.5; ///< amplitude of an octave over that of the one before
-    uint64_t seed = 0; ///< 0: octave 0 is not shifted, so that it is improved_noise itself
+    double lacunarity = 2; ///< frequency of an octave over the frequency of the previous octave
+    double gain = 0.5; ///< amplitude of an octave over the amplitude of the previous octave
+    uint64_t seed = 0; ///< 0: octave 0 is not shifted, so it equals improved_noise
 };
 
-/// Sum of octaves of improved noise over the sum of their amplitudes.
+/// Sum of octaves of improved noise, divided by the sum of their amplitudes.
 ///
 /// Octave k is gain^k noise(lacunarity^k (p / scale + offset) + s_k). The shift s_k keeps the zeros of the octaves
 /// apart: component a is 256 unit_double(hash_index(3 k + a, seed, 0x6e6f697365)), and 0 for k = 0 and seed 0.
@@ -47,11 +48,11 @@ public:
         return sum;
     }
 
-    /// The values below which each of the given fractions (in 0..1) of space lies.
+    /// For each given fraction (0..1), the value v such that the noise is below v in that fraction of space.
     ///
-    /// From 2^19 places spread evenly over the noise's period; standard error of a fraction below 0.0007.
+    /// From 2^19 points spread evenly over the noise's period; the standard error of a fraction is below 0.0007.
     std::vector<double> quantiles(std::span<const double> fractions) const;
-    /// The fraction of space below each of the given values; the same places.
+    /// The fraction of space where the noise is below each given value, from the same points.
     std::vector<double> fractions_below(std::span<const double> values) const;
 
 private:

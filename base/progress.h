@@ -8,8 +8,8 @@ namespace scree {
 
 /// Progress and cancellation of one long piece of work; safe to use from many threads.
 ///
-/// The worker calls `update` with the fraction done and stops early when `cancelled`; whoever shows progress
-/// sets `on_update`, and whoever wants to stop calls `cancel` (safe inside a signal handler).
+/// The worker calls `update` with the fraction done and stops early when `cancelled`. Code that shows progress passes a
+/// Sink; code that wants to stop the work calls `cancel` (safe inside a signal handler).
 class Progress {
 public:
     /// Called with (stage, fraction in 0..1); from any thread, but never two at once for one stage's sink.
@@ -18,7 +18,7 @@ public:
     Progress() = default;
     explicit Progress(Sink sink) : sink_(std::move(sink)) {}
 
-    /// Tells that `fraction` of `stage` is done.
+    /// Reports that `fraction` of `stage` is done.
     void update(const std::string& stage, double fraction) const
     {
         if (sink_) sink_(stage, fraction);

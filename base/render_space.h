@@ -4,8 +4,9 @@
 
 namespace scree {
 
-/// Where and how large the scene is: render coordinates are (x - origin) 2^-exponent, so that the grains fill about
-/// -1..1. Powers of two and a centring in double make a scene scaled by 2^k, or far from zero, the same numbers.
+/// Position and size of the scene: render coordinates are (x - origin) 2^-exponent, so that the grains fill about
+/// -1..1. The scale is a power of two and the origin is subtracted in double, so a scene that is scaled by 2^k, or
+/// far from zero, gets the same render coordinates.
 struct RenderSpace {
     V3d origin{0};
     int exponent = 0;

@@ -24,7 +24,7 @@ public:
         return (static_cast<double>(block_[used_++]) + 0.5) * 0x1p-32;
     }
 
-    /// How many blocks of four numbers were drawn; 2^32 of them may be.
+    /// How many blocks of four numbers were drawn; at most 2^32 are possible.
     uint32_t blocks() const { return counter_[0]; }
 
     /// The four numbers of one block, for tests against the published vectors.
@@ -55,9 +55,10 @@ private:
     uint32_t used_ = 4;
 };
 
-/// An exponential of mean 1 whose distribution is as fine at both ends as doubles are.
+/// Draws from the exponential distribution of mean 1, with the full resolution of doubles at both ends.
 ///
-/// The sampler's steps of 2^-32 alone would let nothing scatter at optical depths below 1e-10, and none get through 23.
+/// With the sampler's steps of 2^-32 alone, no path would scatter at optical depths below 1e-10, and none would pass
+/// through an optical depth of 23.
 inline double draw_optical_depth(Sampler& sampler)
 {
     const double u = sampler.next();

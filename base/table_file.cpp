@@ -15,14 +15,14 @@ void TableFileWriter::write() const
     for (const Part& part : parts_)
         stream.write(static_cast<const char*>(part.bytes), static_cast<std::streamsize>(part.size));
     stream.close();
-    if (!stream) throw InputError(file_.string(), "a file that cannot be written", "room for " + what_);
+    if (!stream) throw InputError(file_.string(), "a file that cannot be written", "enough free space for " + what_);
     output.commit();
 }
 
 TableFileReader::TableFileReader(const std::filesystem::path& file, std::string what)
     : file_(file), what_(std::move(what)), stream_(file, std::ios::binary | std::ios::ate)
 {
-    if (!stream_) throw refuse("no file that can be read");
+    if (!stream_) throw refuse("a file that cannot be read");
     left_ = static_cast<uint64_t>(stream_.tellg());
     stream_.seekg(0);
 }
@@ -37,7 +37,7 @@ void TableFileReader::read(void* bytes, uint64_t size)
 InputError TableFileReader::refuse(const std::string& found) const
 {
     return InputError(file_.string(), found, what_ + " written by this version of Scree",
-                      "remove it; it will be made again");
+                      "remove it; Scree will make it again");
 }
 
 void TableFileReader::finish(uint64_t checksum, uint64_t expected) const

@@ -11,10 +11,10 @@
 
 namespace scree {
 
-/// Writes a file of tables as they lie in memory, whole or not at all; numbers are little-endian.
+/// Writes tables to a file exactly as stored in memory (little-endian); the file appears whole or not at all.
 class TableFileWriter {
 public:
-    /// what: the tables, for messages.
+    /// what: name of the tables, for messages.
     TableFileWriter(std::filesystem::path file, std::string what) : file_(std::move(file)), what_(std::move(what)) {}
 
     void add(const void* bytes, uint64_t size) { parts_.push_back({bytes, size}); }
@@ -24,7 +24,7 @@ public:
         static_assert(std::is_trivially_copyable_v<T>);
         add(&head, sizeof head);
     }
-    /// Writes all that was added, which must still be there. Throws InputError.
+    /// Writes everything that was added; that memory must still be valid. Throws InputError.
     void write() const;
 
 private:
@@ -37,10 +37,11 @@ private:
     std::vector<Part> parts_;
 };
 
-/// Reads such a file from its beginning; every read throws InputError where the file is damaged or ends early.
+/// Reads a file of TableFileWriter from its beginning; every read throws InputError if the file is damaged or too
+/// short.
 class TableFileReader {
 public:
-    /// what: the tables, for messages. Throws InputError where there is no file.
+    /// what: name of the tables, for messages. Throws InputError when the file cannot be opened.
     TableFileReader(const std::filesystem::path& file, std::string what);
 
     void read(void* bytes, uint64_t size);
@@ -53,9 +54,9 @@ public:
         return head;
     }
     uint64_t left() const { return left_; } ///< bytes not read yet
-    /// That the file was not as it should be; found: in what way.
+    /// The error for a file that cannot be used; found: what is wrong with it.
     InputError refuse(const std::string& found) const;
-    /// Throws unless everything was read, and had this checksum.
+    /// Throws InputError unless every byte was read and `checksum` equals `expected`.
     void finish(uint64_t checksum, uint64_t expected) const;
 
 private:
@@ -65,7 +66,7 @@ private:
     uint64_t left_ = 0;
 };
 
-/// Calls `each` with a pointer to the bytes of every vector, and their number, in order.
+/// Calls `each(pointer to the bytes, number of bytes)` for every vector, in order.
 template <class Each, class... Vectors>
 void for_each_block(const Each& each, Vectors&... vectors)
 {

@@ -8,17 +8,16 @@
 
 namespace scree {
 
-/// What stands in a file, as it can stand in a message: cut to some 60 characters, unprintable bytes as \xNN, in
-/// quotes.
+/// Text from a file, in a form for messages: in quotes, cut to about 60 characters, unprintable bytes as \xNN.
 std::string in_quotes(std::string_view text);
 
-/// The words of a line: what stands between blanks.
+/// The words of a line, which blanks separate.
 std::vector<std::string_view> split_words(std::string_view line);
 
 /// The words joined by ", ".
 std::string join_words(const std::vector<std::string>& words);
 
-/// The word with 'A'..'Z' as 'a'..'z'.
+/// The word with 'A'..'Z' replaced by 'a'..'z'.
 std::string lower_case(std::string_view word);
 
 /// The whole word as a number, or nothing; infinities and NaN count as numbers here.

@@ -5,7 +5,7 @@
 
 namespace scree {
 
-/// Rows as lines of text, columns as wide as they need to be, the first to the left and the others to the right.
+/// The rows as lines of text; columns are as wide as needed, the first is left-aligned and the others right-aligned.
 std::string text_table(const std::vector<std::vector<std::string>>& rows);
 
 } // namespace scree

@@ -22,7 +22,7 @@ double clock_seconds(clockid_t clock)
 
 WorkTime now() { return {clock_seconds(CLOCK_MONOTONIC), clock_seconds(CLOCK_PROCESS_CPUTIME_ID)}; }
 
-/// A line of /proc/self/status, in bytes; 0 where there is none.
+/// The value of a line of /proc/self/status in bytes; 0 if there is no such line.
 uint64_t status_bytes(const std::string& key)
 {
     std::ifstream in("/proc/self/status");
@@ -32,7 +32,7 @@ uint64_t status_bytes(const std::string& key)
     return 0;
 }
 
-/// The kernel's peak, which meters set back: of this process, and so the one thing that is global here.
+/// The peak before a meter last reset the kernel's peak. Global, because the kernel keeps one peak per process.
 std::atomic<uint64_t> peak_before{0};
 
 uint64_t kernel_peak()
@@ -56,8 +56,8 @@ WorkTime WorkMeter::time() const
 MemoryMeter::MemoryMeter()
 {
     peak_before = peak_bytes();
-    malloc_trim(0); // what others gave back would hide what is taken now
-    std::ofstream("/proc/self/clear_refs") << "5"; // sets the peak back to what is in use (proc(5))
+    malloc_trim(0); // memory that was freed but not returned to the system would hide new use
+    std::ofstream("/proc/self/clear_refs") << "5"; // resets the peak to the current use (proc(5))
     start_ = resident_bytes();
 }
 

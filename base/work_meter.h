@@ -4,9 +4,9 @@
 
 namespace scree {
 
-/// What work took: other programs of a busy machine count in the one and not in the other.
+/// The time that a piece of work took; other programs on a busy machine add to `wall` but not to `processor`.
 struct WorkTime {
-    double wall = 0, processor = 0; ///< seconds; processor: of all threads together
+    double wall = 0, processor = 0; ///< seconds; processor: sum over all threads
 
     WorkTime& operator+=(const WorkTime& other)
     {
@@ -16,7 +16,7 @@ struct WorkTime {
     }
 };
 
-/// Measures from its making.
+/// Measures the time since its construction.
 class WorkMeter {
 public:
     WorkMeter();
@@ -26,20 +26,20 @@ private:
     WorkTime start_;
 };
 
-/// The most memory that was used at once since it was made. Where the system cannot tell that, since the program's
-/// start.
+/// Measures the peak memory use since its construction (since the program's start where the system cannot reset it).
 class MemoryMeter {
 public:
     MemoryMeter();
-    /// Bytes above what was used at the start.
+    /// Peak in bytes, above the memory in use at construction.
     uint64_t peak() const;
 
 private:
     uint64_t start_ = 0;
 };
 
-/// Bytes of this program in use now, and the most there ever were, whatever meters were made in between.
+/// Bytes of memory that this program uses now.
 uint64_t resident_bytes();
+/// The most bytes that this program ever used, no matter which meters were made in between.
 uint64_t peak_bytes();
 
 } // namespace scree

@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Closes a descriptor at the end.
+/// Closes a file descriptor at the end of its scope.
 class Descriptor {
 public:
     explicit Descriptor(int number = -1) : number_(number) {}
@@ -36,7 +36,7 @@ private:
     int number_;
 };
 
-/// Starts the program with the socket as its standard input and output; its process id, or the error's number negated.
+/// Starts the program with the socket as its standard input and output; returns its process id or the negated errno.
 pid_t start(const std::filesystem::path& program, const std::vector<std::string>& arguments, int socket)
 {
     std::vector<std::string> words{program.string()};
@@ -55,7 +55,7 @@ pid_t start(const std::filesystem::path& program, const std::vector<std::string>
     return error == 0 ? process : -error;
 }
 
-/// Sends all of the input and gathers the output until the other side closes; words of what went wrong, or "".
+/// Sends the input and collects the output until the other side closes; returns what went wrong, or "".
 std::string converse(int socket, std::span<const char> input, Clock::time_point deadline, size_t most_output,
                      std::vector<char>& output)
 {
@@ -72,12 +72,12 @@ std::string converse(int socket, std::span<const char> input, Clock::time_point 
         if (poll(&ready, 1, static_cast<int>(std::min<long>(left, 1000))) < 0 && errno != EINTR)
             return std::strerror(errno);
         if (sending && (ready.revents & POLLOUT) != 0) {
-            // No signal for a reader that is gone: it would end this program.
+            // MSG_NOSIGNAL: if the reader is gone, SIGPIPE would end this program.
             const ssize_t sent = send(socket, input.data(), input.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
             if (sent > 0)
                 input = input.subspan(static_cast<size_t>(sent));
             else if (errno != EAGAIN && errno != EINTR)
-                sending = false; // it closed early: what it wrote still counts
+                sending = false; // the program closed its input early; its output still counts
         }
         if ((ready.revents & (POLLIN | POLLHUP | POLLERR)) == 0) continue;
         const ssize_t got = recv(socket, buffer.data(), buffer.size(), MSG_DONTWAIT);
@@ -88,7 +88,7 @@ std::string converse(int socket, std::span<const char> input, Clock::time_point 
     }
 }
 
-/// Waits for the process until the deadline, then kills it; its wait status.
+/// Waits for the process until the deadline, then kills it; returns its wait status.
 int wait_for(pid_t process, Clock::time_point deadline, bool& killed)
 {
     int status = 0;

@@ -7,10 +7,10 @@
 
 namespace scree {
 
-/// One mixture picks which of the others decides.
+/// One mixture, `by`, chooses for each sphere which of the other mixtures decides its type.
 class BlendMixture final : public Mixture {
 public:
-    /// The types of `by` are places in `mixtures`.
+    /// The types of `by` are indices into `mixtures`.
     BlendMixture(std::unique_ptr<Mixture> by, std::vector<std::unique_ptr<Mixture>> mixtures)
         : by_(std::move(by)), mixtures_(std::move(mixtures))
     {
@@ -39,7 +39,7 @@ private:
     std::vector<std::unique_ptr<Mixture>> mixtures_;
 };
 
-/// A mixture of the spheres of one tile, for a fill that repeats it: sphere index = copy * size + row.
+/// The mixture of one tile, for a fill that repeats the tile: sphere index = copy * size + row.
 class TiledMixture final : public Mixture {
 public:
     TiledMixture(std::unique_ptr<Mixture> tile, uint64_t size) : tile_(std::move(tile)), size_(size) {}

@@ -7,7 +7,7 @@ namespace scree {
 
 namespace {
 
-/// Cosine and sine of degrees by their Taylor series within an eighth of a turn.
+/// Cosine and sine of an angle in degrees: reduced to an eighth of a turn, then by Taylor series.
 std::pair<double, double> cosine_and_sine(double degrees)
 {
     const double turns = degrees / 90, quarter = std::floor(turns + 0.5);

@@ -8,23 +8,25 @@
 
 namespace scree {
 
-/// A number as the integer of its cell: its floor; 0 for what is too far out to count (2^60 and beyond) or not finite.
+/// The integer index of the cell that holds x: floor(x), or 0 where |x| is 2^60 or more or x is not finite.
 int64_t cell_of(double x);
 
-/// The rotation about x by angles.x, then about y, then about z, in degrees; multiples of 90 are exact, and the bits
-/// are the same on every machine, which those of the library's sine are not. Row vectors: place * matrix.
+/// The rotation about x by angles.x, then about y by angles.y, then about z by angles.z, in degrees.
+///
+/// Multiples of 90 are exact. The bits are the same on every machine; the library's sine does not guarantee that.
+/// Row vectors: position * matrix.
 Imath::M33d rotation_in_degrees(const Imath::V3d& angles);
 
-/// Cells in turns: cell (i, j, k) has type number (i + j + k) mod n.
+/// Cells of alternating types: cell (i, j, k) has type number (i + j + k) mod n.
 class CheckerboardMixture final : public Mixture {
 public:
     struct Board {
-        Imath::V3d cell{1}; ///< edges of a cell, above 0
-        Imath::V3d offset{0}; ///< where the corner of cell (0, 0, 0) lies
-        Imath::V3d rotation{0}; ///< of the board about that corner; see rotation_in_degrees
+        Imath::V3d cell{1}; ///< edge lengths of a cell, above 0
+        Imath::V3d offset{0}; ///< position of the corner of cell (0, 0, 0)
+        Imath::V3d rotation{0}; ///< rotation of the board about that corner; see rotation_in_degrees
     };
 
-    /// origin: the place that positions are relative to.
+    /// origin: the point that positions are relative to.
     CheckerboardMixture(const Board& board, std::vector<uint32_t> types, const Imath::V3d& origin);
 
     uint32_t type(uint64_t index, const Imath::V3f& position) const override;

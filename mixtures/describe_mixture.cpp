@@ -151,9 +151,9 @@ struct Words {
         const Imath::V3d& d = mixture.direction;
         std::string words = fmt::format("layers along ({}, {}, {}) from {}: {}, ", d.x, d.y, d.z, mixture.offset,
                                         fmt::join(layers, ", "));
-        words += mixture.repeat ? "again and again" : "the first and the last without end";
+        words += mixture.repeat ? "repeated" : "the first and the last without end";
         if (mixture.jitter != 0)
-            words += fmt::format("; moved by up to {} by noise {}", mixture.jitter, noise_words(mixture.noise));
+            words += fmt::format("; faces moved by up to {} by noise {}", mixture.jitter, noise_words(mixture.noise));
         return words;
     }
 
@@ -168,7 +168,7 @@ struct Words {
         for (const auto& field : mixture.fields)
             words += fmt::format("\n{}  {}: {}{}{}", indent, field.type, field.file.string(),
                                  field.grid.empty() ? "" : ":", field.grid);
-        if (!mixture.rest.empty()) words += fmt::format("\n{}  {}: what is left", indent, mixture.rest);
+        if (!mixture.rest.empty()) words += fmt::format("\n{}  {}: the rest", indent, mixture.rest);
         return words;
     }
 

@@ -8,13 +8,13 @@
 
 namespace scree {
 
-/// The mixture in words, a line per statement and a level of indentation per level of the tree.
+/// The mixture in words: one line per statement, indented by the depth in the tree.
 std::string words_of_mixture(const MixtureDescription& mixture);
 
-/// The fraction of each grain type that the description leads one to expect, by number over unbounded space; nothing
-/// where it depends on the spheres (explicit, radius, grid, layers without end).
+/// The expected fraction of each grain type, by number over unbounded space; nothing where the fractions depend on the
+/// spheres (explicit, radius, grid, layers that do not repeat).
 ///
-/// Those of perlin with `threshold` come from the noise's distribution (standard error below 0.0007).
+/// The fractions of perlin with `threshold` come from the noise's distribution (standard error below 0.0007).
 std::optional<std::map<std::string, double>> expected_fractions(const MixtureDescription& mixture);
 
 } // namespace scree

@@ -43,7 +43,8 @@ std::unique_ptr<ExplicitMixture> mixture_from_frame(const ParticleFrame& frame,
     }
     if (!missing.empty()) {
         throw InputError(place, fmt::format("no grain type for the dump's type {}", fmt::join(missing, ", ")),
-                         "every type of the dump named", fmt::format("e.g. \"{}\": \"glass\"", *missing.begin()));
+                         "a grain type for every type of the dump",
+                         fmt::format("e.g. \"{}\": \"glass\"", *missing.begin()));
     }
     return std::make_unique<ExplicitMixture>(types);
 }

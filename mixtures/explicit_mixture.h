@@ -10,7 +10,7 @@
 
 namespace scree {
 
-/// A grain type for every sphere, one by one, as a simulation gives it; one byte a sphere for up to 256 types.
+/// A list with the grain type of every sphere, e.g. from a simulation; one byte per sphere for up to 256 types.
 class ExplicitMixture final : public Mixture {
 public:
     /// types[i] is the type of sphere i; all below 65536.
@@ -25,13 +25,13 @@ public:
     uint64_t size() const { return wide_.empty() ? narrow_.size() : wide_.size(); }
 
 private:
-    std::vector<uint8_t> narrow_; // used while every type fits
-    std::vector<uint16_t> wide_; // else
+    std::vector<uint8_t> narrow_; // used when every type is below 256
+    std::vector<uint16_t> wide_; // used otherwise
 };
 
-/// The explicit mixture of a frame: its own type numbers, through `type_map` (file's number -> grain type).
+/// The explicit mixture of a frame: `type_map` maps the frame's own type numbers to grain types.
 ///
-/// Throws InputError naming `place` when a sphere has a type the map lacks.
+/// Throws InputError naming `place` when a sphere has a type that the map lacks.
 std::unique_ptr<ExplicitMixture> mixture_from_frame(const ParticleFrame& frame,
                                                     const std::map<int32_t, uint32_t>& type_map,
                                                     const std::string& place);

@@ -34,10 +34,9 @@ openvdb::FloatGrid::ConstPtr read_field(const ConcentrationField& field)
             if (!field.grid.empty() && name.gridName() != field.grid) continue;
             if (const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid(name.gridName()))) return grid;
             if (!field.grid.empty())
-                throw InputError(place, "the grid '" + field.grid + "' of another kind", "a grid of floats");
+                throw InputError(place, "the grid '" + field.grid + "', which is not a float grid", "a float grid");
         }
-        if (field.grid.empty())
-            throw InputError(place, "no grid of floats", "a concentration as an OpenVDB float grid");
+        if (field.grid.empty()) throw InputError(place, "no float grid", "a concentration as an OpenVDB float grid");
         throw InputError(place, "no grid '" + field.grid + "'",
                          fmt::format("one of the file's grids: {}", fmt::join(names, ", ")));
     } catch (const openvdb::Exception& failure) {
@@ -47,10 +46,10 @@ openvdb::FloatGrid::ConstPtr read_field(const ConcentrationField& field)
 
 double sample(const openvdb::FloatGrid& grid, const openvdb::Vec3d& place)
 {
-    // An accessor that is not registered with its tree: neither lock nor allocation, and this thread's own.
+    // The accessor is not registered with its tree, so it needs no lock and no allocation; it belongs to this thread.
     const openvdb::tree::ValueAccessor<const openvdb::FloatTree, false> accessor(grid.constTree());
     const openvdb::Vec3d voxel = grid.worldToIndex(place);
-    constexpr double limit = 1 << 30; // voxels are counted in 32 bits
+    constexpr double limit = 1 << 30; // voxel indices have 32 bits
     if (!(std::abs(voxel.x()) < limit && std::abs(voxel.y()) < limit && std::abs(voxel.z()) < limit)) return 0;
     const float value = openvdb::tools::BoxSampler::sample(accessor, voxel);
     return value > 0 && std::isfinite(value) ? value : 0;
@@ -73,7 +72,7 @@ GridMixture::~GridMixture() = default;
 uint32_t GridMixture::type(uint64_t index, const Imath::V3f& position) const
 {
     const openvdb::Vec3d place(origin_.x + position.x, origin_.y + position.y, origin_.z + position.z);
-    // Few fields are kept on the stack; more are sampled twice.
+    // The values of the first fields are kept on the stack; further fields are sampled twice.
     constexpr size_t kept = 16;
     double values[kept];
     double sum = 0;

@@ -11,18 +11,19 @@
 
 namespace scree {
 
-/// A concentration of a grain type in space: a float grid of an OpenVDB file.
+/// The concentration of a grain type in space: a float grid of an OpenVDB file.
 struct ConcentrationField {
     uint32_t type = 0;
     std::filesystem::path file;
     std::string grid; ///< its name; empty: the file's first float grid
 };
 
-/// The type is drawn by the hash of the sphere's id, with the concentrations at its centre as chances.
+/// Each sphere draws its type by the hash of its id; the concentrations at its centre are the probabilities.
 ///
-/// c_k: trilinear between voxel centres, negative or not finite ones as 0. With a `rest` type the chance of k is c_k,
-/// of the rest 1 - sum c, and where the sum is above 1, c_k over the sum. Without one it is c_k over the sum, and where
-/// all are 0 the first field's type. u = unit_double(hash_index(id, seed, stream)) chooses as in RandomMixture.
+/// c_k: interpolated trilinearly between voxel centres; a negative or non-finite value counts as 0. With a `rest` type,
+/// type k has probability c_k and the rest 1 - sum c; where the sum is above 1, type k has c_k / sum. Without a `rest`
+/// type, type k has c_k / sum; where all c are 0, the first field's type is chosen.
+/// u = unit_double(hash_index(id, seed, stream)) chooses as in RandomMixture.
 class GridMixture final : public Mixture {
 public:
     struct Options {
@@ -31,7 +32,7 @@ public:
         uint64_t seed = 0, stream = 0;
     };
 
-    /// origin: the place that positions are relative to. Throws InputError naming the file.
+    /// origin: the point that positions are relative to. Throws InputError naming the file.
     GridMixture(const Options& options, SphereIds ids, const Imath::V3d& origin);
     ~GridMixture() override;
 

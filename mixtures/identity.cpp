@@ -9,7 +9,7 @@ namespace scree {
 
 Imath::Quatd rotation_of_id(uint64_t id)
 {
-    constexpr uint64_t rotation_seed = 0x726f74617465ull; // "rotate": apart from every stream that chooses types
+    constexpr uint64_t rotation_seed = 0x726f74617465ull; // "rotate": independent of every stream that chooses types
     const double u = unit_double(hash_index(id, rotation_seed, 0));
     const double a = 2 * std::numbers::pi * unit_double(hash_index(id, rotation_seed, 1));
     const double b = 2 * std::numbers::pi * unit_double(hash_index(id, rotation_seed, 2));

@@ -20,10 +20,10 @@ namespace scree {
 
 namespace {
 
-/// Makes one node of the tree; blends make more of them.
+/// Makes one node of the tree; a blend creates a Maker for each of its mixtures.
 struct Maker {
     const MixtureContext& context;
-    const std::vector<std::string>& types; // of this level: the scene's, or the names in a blend
+    const std::vector<std::string>& types; // of this level: the scene's grain types, or the mixture names of a blend
     const SphereIds& ids;
     Imath::V3d origin;
     uint64_t stream;
@@ -46,7 +46,7 @@ struct Maker {
     const ParticleFrame& spheres(const char* kind) const
     {
         if (!context.frame)
-            throw InputError(place, std::string("a mixture of kind ") + kind, "a scene that lists its spheres", "");
+            throw InputError(place, std::string("a mixture of kind ") + kind, "a scene with a list of spheres", "");
         return *context.frame;
     }
     std::unique_ptr<Mixture> for_spheres(std::unique_ptr<Mixture> mixture) const
@@ -90,7 +90,7 @@ struct Maker {
                 map.push_back(type_of(word));
             } else {
                 throw InputError(mixture.table.string(), "the type " + word,
-                                 "a type that \"types\" names, or a grain type itself",
+                                 "a key of \"types\", or the name of a grain type",
                                  fmt::format("e.g. \"types\": {{\"{}\": \"{}\"}} in {}", word,
                                              types.empty() ? "glass" : types[0], place));
             }
@@ -180,7 +180,7 @@ struct Maker {
 std::unique_ptr<Mixture> make_mixture(const MixtureDescription& description, const MixtureContext& context)
 {
     const ParticleFrame* frame = context.frame;
-    if (frame && frame->size() == 0) return std::make_unique<SingleMixture>(0); // nobody will ask
+    if (frame && frame->size() == 0) return std::make_unique<SingleMixture>(0); // no sphere will ask
     const SphereIds ids = frame && !context.tiled ? SphereIds(frame->id) : SphereIds();
     const Maker maker{context, context.types, ids, frame ? frame->origin : Imath::V3d(0), 0, description.place};
     return std::visit(maker, description.kind);

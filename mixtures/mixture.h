@@ -8,17 +8,17 @@
 
 namespace scree {
 
-/// Decides which grain type each sphere is: a pure, thread-safe function of (sphere index, position).
+/// Decides the grain type of each sphere: a pure, thread-safe function of (sphere index, position).
 ///
-/// Types are numbers into a list of grain types that whoever made the mixture holds.
+/// Types are indices into a list of grain types, which the code that made the mixture keeps.
 class Mixture {
 public:
     virtual ~Mixture() = default;
 
-    /// The grain type of sphere `index`, whose centre is `position` in the unit of its frame, relative to its origin.
+    /// The grain type of sphere `index`; position: its centre in the frame's unit, relative to the frame's origin.
     virtual uint32_t type(uint64_t index, const Imath::V3f& position) const = 0;
 
-    /// Grain types that type() can return, and maybe more; nothing: not known.
+    /// A set that contains all grain types that type() can return; nothing: not known.
     virtual std::optional<std::set<uint32_t>> possible_types() const { return std::nullopt; }
 };
 

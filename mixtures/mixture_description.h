@@ -15,17 +15,17 @@ namespace scree {
 
 struct MixtureDescription;
 
-/// One grain type for all: {"kind": "single", "type": T}, or just "T".
+/// One grain type for all spheres: {"kind": "single", "type": T}, or just "T".
 struct SingleDescription {
     std::string type;
 };
 
-/// Each sphere's own type number, out of its dump or out of a table on disk.
+/// Each sphere's own type number, from its dump or from a table on disk.
 struct ExplicitDescription {
-    std::map<std::string, std::string> types; ///< number (or word) there -> grain type; empty: as the assembly says
+    std::map<std::string, std::string> types; ///< number (or word) there -> grain type; empty: the assembly's map
     std::filesystem::path table; ///< .csv (also packed) or .vdb; empty: the dump itself
-    std::string column = "type"; ///< of the table, or attribute
-    std::string id = "id"; ///< column of ids; spheres go by row in a table that lacks it
+    std::string column = "type"; ///< the table's column (or attribute) of types
+    std::string id = "id"; ///< the table's column of ids; without it row i is sphere i
 };
 
 enum class RandomBy { number, volume };
@@ -41,7 +41,7 @@ struct RandomDescription {
 struct PerlinDescription {
     std::vector<std::string> types;
     NoiseOptions noise;
-    /// Ascending, one fewer than types; or empty, and then `fraction`, as many as types.
+    /// threshold: ascending, one fewer than types; if empty, `fraction` is used and has as many entries as types.
     std::vector<double> threshold, fraction;
 };
 
@@ -57,10 +57,10 @@ struct LayersDescription {
     double offset = 0;
     bool repeat = true;
     double jitter = 0; ///< amplitude, in units of length; 0: plane faces
-    NoiseOptions noise; ///< of the jitter
+    NoiseOptions noise; ///< noise of the jitter
 };
 
-/// types[k] holds spheres of radius below thresholds[k] (ascending, one fewer than types) and not below the one before.
+/// types[k] is for radii below thresholds[k] (ascending, one fewer than types) and not below thresholds[k - 1].
 struct RadiusDescription {
     std::vector<std::string> types;
     std::vector<double> thresholds;
@@ -73,25 +73,25 @@ struct GridDescription {
         std::string grid; ///< empty: the file's first float grid
     };
     std::vector<Field> fields;
-    std::string rest; ///< type where the concentrations leave room; empty: none
+    std::string rest; ///< type for the probability that the concentrations leave; empty: none
     uint64_t seed = 0;
 };
 
-/// `by` (one entry) chooses between mixtures by their names.
+/// `by` (one entry) chooses one of the mixtures by its name.
 struct BlendDescription {
     std::vector<std::string> names; ///< sorted
     std::vector<MixtureDescription> mixtures;
     std::vector<MixtureDescription> by;
 };
 
-/// In which frame of a dump a sphere's type is decided, when the mixture depends on more than its id.
+/// The frame of a dump that decides a sphere's type, if the mixture depends on more than the sphere's id.
 struct DecisionFrame {
-    bool each = false; ///< anew in every frame
-    int64_t frame = -1; ///< else in this one; from the end when negative
+    bool each = false; ///< every frame decides anew
+    int64_t frame = -1; ///< otherwise this frame decides; counted from the end when negative
     bool operator==(const DecisionFrame&) const = default;
 };
 
-/// What a mixture's JSON says: a tree, of names and numbers only.
+/// The contents of a mixture's JSON: a tree of names and numbers only.
 struct MixtureDescription {
     std::variant<SingleDescription, ExplicitDescription, RandomDescription, PerlinDescription, CheckerboardDescription,
                  LayersDescription, RadiusDescription, GridDescription, BlendDescription>
@@ -104,14 +104,14 @@ struct MixtureDescription {
 inline const std::vector<std::string> mixture_kinds{"single", "explicit", "random", "perlin", "checkerboard",
                                                     "layers", "radius",   "grid",   "blend"};
 
-/// The grain types that the mixture names, in order and each once; `chosen_only`: without those of weight or fraction
-/// 0. An explicit mixture without a map of its own adds none.
+/// The grain types that the mixture names, in order, each once; `chosen_only`: without types that are never chosen
+/// (weight or fraction 0). An explicit mixture without its own map adds none.
 std::vector<std::string> types_named(const MixtureDescription& mixture, bool chosen_only = false);
 
-/// Whether a sphere's type can change from frame to frame: it depends on places, or on which spheres there are.
+/// Whether a sphere's type can change from frame to frame, because it depends on positions or on the set of spheres.
 bool depends_on_frame(const MixtureDescription& mixture);
 
-/// Whether types follow from the spheres of a dump, so that the description alone does not tell them all.
+/// Whether some types come from the map of an assembly, so that the description alone does not name them all.
 bool needs_dump_types(const MixtureDescription& mixture);
 
 } // namespace scree

@@ -9,20 +9,20 @@ namespace scree {
 
 /// A mixture over the frames of a film: no sphere changes its type while it moves.
 ///
-/// Types that follow from places (or from which spheres there are) are decided in one frame, by default the last, and
-/// kept by id from then on; spheres that are not in that frame are decided where they are.
+/// Types that depend on positions (or on the set of spheres) are decided in one frame, by default the last, and kept by
+/// sphere id. A sphere that is not in that frame is decided at its position in the current frame.
 class MixtureSeries {
 public:
     /// types, file_types, place: as in MixtureContext.
     MixtureSeries(MixtureDescription description, std::vector<std::string> types,
                   std::map<int32_t, std::string> file_types = {}, std::string place = "");
 
-    /// Which of `frame_count` frames decides, when one does and there are several. Throws InputError when it does not
-    /// exist.
+    /// The index of the frame that decides; nothing if every frame decides anew, if frames make no difference, or if
+    /// frame_count < 2. Throws InputError when that frame does not exist.
     std::optional<size_t> deciding_frame(size_t frame_count) const;
 
-    /// Hands in that frame; without it every frame decides for itself. Spheres without ids from the file are not
-    /// followed.
+    /// Decides the types in this frame; without this call every frame decides for itself. Does nothing when the file
+    /// gives no ids.
     void decide(const ParticleFrame& frame);
     bool decided() const { return decided_; }
 

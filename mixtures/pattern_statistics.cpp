@@ -17,7 +17,7 @@ struct Bounds {
     Imath::V3d lo{std::numeric_limits<double>::infinity()}, hi{-std::numeric_limits<double>::infinity()};
 };
 
-/// Bounds of all but stray spheres, as one that fell off the table must not make the boxes as wide as its way.
+/// Bounds of all but stray spheres: one sphere that fell off the table must not make the boxes too wide.
 Bounds bounds_of(const ParticleFrame& frame)
 {
     constexpr size_t most = 100000;
@@ -42,7 +42,7 @@ int64_t clamped_cell(double x, int64_t count)
     return static_cast<int64_t>(std::clamp(x, 0.0, static_cast<double>(count) - 0.5));
 }
 
-/// Spheres by cells of a regular grid over their bounds.
+/// Spheres sorted into the cells of a regular grid over their bounds.
 class Cells {
 public:
     Cells(const ParticleFrame& frame, const Bounds& bounds, double width) : frame_(frame), lo_(bounds.lo), width_(width)
@@ -56,7 +56,7 @@ public:
         for (size_t i = 0; i < frame.size(); ++i) rows_[next[cell_of(frame.position[i])]++] = i;
     }
 
-    /// The sphere whose centre is nearest, when one is within a cell's width.
+    /// The sphere, other than `but`, whose centre is nearest to `place`; nothing if none is within a cell's width.
     std::optional<size_t> nearest(const Imath::V3d& place, size_t but) const
     {
         std::optional<size_t> best;
@@ -96,7 +96,7 @@ private:
     std::vector<uint64_t> starts_, rows_;
 };
 
-/// How far neighbours are apart: a mean diameter, or in a loose set the edge of a sphere's share of the bounding box.
+/// The distance between neighbours: the mean diameter, but within 1/4..1 of the edge of a sphere's share of the bounds.
 double spacing_of(const ParticleFrame& frame, const Bounds& bounds)
 {
     const Imath::V3d extent = bounds.hi - bounds.lo;
@@ -107,8 +107,8 @@ double spacing_of(const ParticleFrame& frame, const Bounds& bounds)
     double volume = 1;
     for (int a = 0; a < 3; ++a) volume *= std::max(extent[a], least);
     const double share = std::cbrt(volume / static_cast<double>(frame.size()));
-    return std::clamp(2 * radius, share / 4,
-                      share); // not far below the share, so that cells are not many more than spheres
+    // Not far below the share, so that there are not many more cells than spheres.
+    return std::clamp(2 * radius, share / 4, share);
 }
 
 struct Sums {
@@ -116,7 +116,7 @@ struct Sums {
     double all_count = 0, all_volume = 0;
 };
 
-/// The ratio of sums and the jackknife's interval over the boxes that hold spheres.
+/// The ratio of the sums, with its jackknife interval over the boxes that hold spheres.
 template <class Part, class All>
 FractionEstimate jackknife(const std::vector<Sums>& boxes, const Part& part, const All& all)
 {
@@ -186,7 +186,7 @@ void add_correlation(const ParticleFrame& frame, std::span<const uint32_t> types
     for (const auto& type : statistics.types) same += type.by_number.value * type.by_number.value;
     if (same >= 1 || !(spacing > 0) || !(farthest > spacing)) return;
     const Cells cells(frame, bounds, spacing);
-    constexpr double step = 1.189207115002721; // four shells an octave
+    constexpr double step = 1.189207115002721; // four shells per factor of 2 in distance
     for (double distance = spacing; distance <= farthest; distance *= step) {
         const uint64_t stream = statistics.correlation.size();
         double pairs = 0, alike = 0, travelled = 0;

@@ -10,8 +10,8 @@ namespace scree {
 /// The type follows from the value of fractal noise at the sphere's centre.
 class PerlinMixture final : public Mixture {
 public:
-    /// types[k] lies below thresholds[k] (ascending, one fewer than types), the last above all of them. origin: the
-    /// place that positions are relative to.
+    /// types[k] is for noise below thresholds[k] (ascending, one fewer than types) and not below thresholds[k - 1].
+    /// origin: the point that positions are relative to.
     PerlinMixture(const NoiseOptions& noise, std::vector<uint32_t> types, std::vector<double> thresholds,
                   const Imath::V3d& origin)
         : noise_(noise), origin_(origin), types_(std::move(types)), thresholds_(std::move(thresholds))

@@ -24,7 +24,7 @@ double sum_of_weights(std::span<const double> weights)
 
 struct RankedSphere {
     float radius;
-    uint32_t hash; // breaks ties of radius, so that neither row nor place matters
+    uint32_t hash; // orders spheres of equal radius, so that neither row nor position matters
     uint64_t row;
 };
 
@@ -97,10 +97,10 @@ std::vector<uint32_t> choose_by_volume(std::span<const float> radii, const Spher
         }
         size_t k = emptiest;
         if (sum > 0) {
-            // The low half of the hash: the high half has ordered the spheres.
+            // The low half of the hash, because the high half ordered the spheres.
             double u = sum * 0x1p-32 * static_cast<double>(hash_with_key(ids[s.row], key) & 0xffffffffu);
             for (k = 0; k + 1 < n && (lack[k] == 0 || u >= lack[k]); ++k) u -= lack[k];
-            while (lack[k] == 0) --k; // rounding may run past the last that lacks
+            while (lack[k] == 0) --k; // rounding may run past the last type that lacks volume
         }
         volume[k] += v;
         chosen[s.row] = static_cast<uint32_t>(k);

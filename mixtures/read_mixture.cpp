@@ -11,10 +11,10 @@ namespace scree {
 
 namespace {
 
-constexpr int64_t largest_seed = int64_t{1} << 53; // what every JSON library keeps exactly
+constexpr int64_t largest_seed = int64_t{1} << 53; // every JSON library keeps integers up to this exactly
 constexpr size_t deepest = 200;
 
-/// What is known where a mixture stands: which names it may choose from, and the files it was reached through.
+/// The context of a mixture in the tree: the names that it may choose from, and the files that led to it.
 struct Scope {
     const std::vector<std::string>& types;
     std::vector<std::filesystem::path> files;
@@ -73,7 +73,7 @@ std::vector<double> read_weights(const JsonValue& value, size_t count)
     std::vector<double> weights = read_numbers(value, count, 0);
     double sum = 0;
     for (const double w : weights) sum += w;
-    if (!(sum > 0) || !std::isfinite(sum)) value.fail("a sum above 0");
+    if (!(sum > 0) || !std::isfinite(sum)) value.fail("numbers with a sum above 0");
     return weights;
 }
 
@@ -217,20 +217,20 @@ BlendDescription read_blend(JsonObject& object, const Scope& scope)
     const JsonValue mixtures = object.require("mixtures");
     JsonObject map = mixtures.object();
     mixture.names = map.take_keys();
-    if (mixture.names.empty() || mixture.names.size() > 65535) mixtures.fail("mixtures by name");
+    if (mixture.names.empty() || mixture.names.size() > 65535) mixtures.fail("1 to 65535 mixtures by name");
     for (const std::string& name : mixture.names) mixture.mixtures.push_back(read_any(map.require(name), inner));
     const Scope names{mixture.names, scope.files, scope.depth + 1};
     mixture.by.push_back(read_any(object.require("by"), names));
     return mixture;
 }
 
-/// Opens {"file": F} and reads what stands there.
+/// Reads the mixture of {"file": F}.
 MixtureDescription read_reference(const std::filesystem::path& file, const Scope& scope, const JsonValue* where)
 {
     const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
     if (std::ranges::find(scope.files, path) != scope.files.end()) {
         throw InputError(where ? where->place() : file.string(), "a mixture inside itself: " + file.string(),
-                         "files that do not refer in a circle");
+                         "files that do not refer to each other in a circle");
     }
     const JsonDocument document = JsonDocument::load(file);
     Scope inner{scope.types, scope.files, scope.depth + 1};
@@ -238,7 +238,7 @@ MixtureDescription read_reference(const std::filesystem::path& file, const Scope
     const JsonValue root = document.root();
     if (root.is_object()) {
         JsonObject scene = root.object();
-        if (const auto grains = scene.find("grains")) { // a scene: its mixture
+        if (const auto grains = scene.find("grains")) { // a scene: its mixture is used
             JsonObject object = grains->object();
             if (const auto mixture = object.find("mixture")) return read_any(*mixture, inner);
             MixtureDescription plain;
@@ -252,7 +252,7 @@ MixtureDescription read_reference(const std::filesystem::path& file, const Scope
 
 void read_decision(JsonObject& object, const Scope& scope, DecisionFrame& decided)
 {
-    // One film has one frame of decision: it stands at the root, also of a file that is the root.
+    // A film has one deciding frame: it is read at the root only, also when the root refers to a file.
     if (scope.depth > scope.files.size()) return;
     const auto frame = object.find("frame");
     if (!frame) return;

@@ -4,7 +4,7 @@
 
 namespace scree {
 
-/// One grain type for all.
+/// One grain type for all spheres.
 class SingleMixture final : public Mixture {
 public:
     explicit SingleMixture(uint32_t type) : type_(type) {}

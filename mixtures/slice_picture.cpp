@@ -22,7 +22,7 @@ struct Bounds {
 Bounds bounds_of(const ParticleFrame& frame)
 {
     Bounds b;
-    Imath::V3d sum(0); // relative to the origin: sums of far places would lose digits
+    Imath::V3d sum(0); // relative to the origin: sums of large coordinates would lose digits
     for (size_t i = 0; i < frame.size(); ++i) {
         sum += frame.position[i] - frame.origin;
         for (int a = 0; a < 3; ++a) {
@@ -64,7 +64,7 @@ void draw_panel(Picture& picture, const Panel& panel, const ParticleFrame& frame
                           type_color(types[i]), clip);
     }
     picture.draw_frame(panel.x, panel.y, panel.width, panel.height, ink);
-    // Where the other two planes cut this one.
+    // Marks where the other two planes cut this one.
     const int cut_x = static_cast<int>(to_x(at[panel.right])), cut_y = static_cast<int>(to_y(at[panel.up]));
     for (int k = 0; k < 8; ++k) {
         picture.fill_rectangle(cut_x, panel.y + panel.height + k, 1, 1, ink);

@@ -6,10 +6,10 @@
 
 namespace scree {
 
-/// The ids of the spheres of a frame by row; 16 bytes in all where they are consecutive, else shared between mixtures.
+/// The ids of a frame's spheres by row; stores only the first of consecutive ids, otherwise copies share the list.
 class SphereIds {
 public:
-    /// Every sphere's index is its id.
+    /// The id of every sphere is its index.
     SphereIds() = default;
 
     explicit SphereIds(const std::vector<uint64_t>& ids)

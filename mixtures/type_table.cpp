@@ -31,7 +31,7 @@ std::string read_all(const std::filesystem::path& path)
     return text;
 }
 
-/// std::find does not know that the C library searches bytes sixteen and more at a time.
+/// The C library's memchr searches sixteen bytes or more at a time; std::find does not.
 const char* find_byte(const char* from, const char* end, char byte)
 {
     const void* found = from < end ? std::memchr(from, byte, static_cast<size_t>(end - from)) : nullptr;
@@ -46,7 +46,7 @@ std::string_view trimmed(std::string_view field)
     return field;
 }
 
-/// The different words of a column, numbered; the ones met before are found without a search.
+/// Numbers the different words of a column; words seen before are mostly found without a search.
 class Words {
 public:
     Words(std::vector<std::string>& words, const std::string& place) : words_(words), place_(place) {}
@@ -107,7 +107,7 @@ Columns find_columns(std::string_view line, const std::string& type, const std::
     if (columns.type == names.size()) {
         const std::string nearest = did_you_mean(type, names);
         throw InputError(place + ":1", "no column '" + type + "' among " + in_quotes(line),
-                         "a first line of names such as id,type",
+                         "a first line of column names such as id,type",
                          nearest.empty() ? "\"column\" says which one holds the types" : nearest.substr(2));
     }
     columns.id = find(id);
@@ -167,10 +167,10 @@ constexpr uint16_t no_code = 0xffff;
 
 [[noreturn]] void fail_missing(const std::string& place, uint64_t id)
 {
-    throw InputError(place, fmt::format("no row for the sphere of id {}", id), "a type for every sphere of the dump");
+    throw InputError(place, fmt::format("no row for the sphere with id {}", id), "a type for every sphere of the dump");
 }
 
-/// Codes by id, straight where ids lie close together, else in order of ids.
+/// Codes by id: an array indexed by id if the ids are close together, otherwise a list sorted by id.
 class CodesById {
 public:
     CodesById(const TypeTable& table, const std::string& place)
@@ -222,7 +222,7 @@ std::unique_ptr<ExplicitMixture> mixture_from_table(const TypeTable& table, cons
 {
     if (table.ids.empty() && table.code.size() != frame.size()) {
         throw InputError(place, fmt::format("{} rows without ids", table.code.size()),
-                         fmt::format("as many as spheres, {}", frame.size()), "give the table a column of ids");
+                         fmt::format("as many rows as spheres, {}", frame.size()), "give the table a column of ids");
     }
     const uint32_t highest = type_of_word.empty() ? 0 : std::ranges::max(type_of_word);
     const auto fill = [&](auto& types) {

@@ -54,7 +54,8 @@ TypeTable read_vdb_types(const std::filesystem::path& path, const std::string& t
             const size_t types_at = descriptor.find(type), ids_at = descriptor.find(id);
             if (types_at == points::AttributeSet::INVALID_POS ||
                 leaf->constAttributeArray(types_at).valueType() != "int32")
-                throw InputError(place, "points without int32 " + type, "the type of each point as int32 " + type,
+                throw InputError(place, "points without an int32 attribute " + type,
+                                 "the type of each point as int32 " + type,
                                  "\"column\" says which attribute holds the types");
             const points::AttributeHandle<int32_t> types(leaf->constAttributeArray(types_at));
             for (auto i = leaf->beginIndexAll(); i; ++i) {
@@ -75,7 +76,7 @@ TypeTable read_vdb_types(const std::filesystem::path& path, const std::string& t
             else if (kind == "int32")
                 append_ids<int32_t>(*leaf, ids_at, place, table);
             else
-                throw InputError(place, "ids as " + kind, "int64 or int32 " + id);
+                throw InputError(place, "ids of type " + kind, "an int64 or int32 attribute " + id);
         }
         if (!table.ids.empty() && table.ids.size() != table.code.size())
             throw InputError(place, "ids of some points only", "an id for every point, or for none");

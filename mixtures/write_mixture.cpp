@@ -12,7 +12,7 @@ using nlohmann::ordered_json;
 
 ordered_json vector_json(const Imath::V3d& v) { return {v.x, v.y, v.z}; }
 
-/// One number where all axes agree.
+/// One number if the values of all axes are equal.
 ordered_json lengths_json(const Imath::V3d& v) { return v.x == v.y && v.y == v.z ? ordered_json(v.x) : vector_json(v); }
 
 std::string path_text(const std::filesystem::path& path, const std::filesystem::path& folder)

@@ -49,7 +49,7 @@ void Picture::draw_disc(double x, double y, double radius, ScreenColor color, co
     const auto in = [&](int i, int j) {
         return i >= clip[0] && j >= clip[1] && i < clip[0] + clip[2] && j < clip[1] + clip[3];
     };
-    if (radius < 0.7) { // less than a pixel: its area as a shade
+    if (radius < 0.7) { // less than a pixel: the opacity is its area
         const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
         if (in(i, j)) blend(i, j, color, std::min(1.0, std::numbers::pi * radius * radius));
         return;

@@ -32,7 +32,7 @@ PictureModule load_module()
         const char* const why = dlerror();
         throw InputError(file.string(), why ? why : "no " + std::string(name),
                          "the part of scree that reads and writes pictures",
-                         "it is built with scree and stays in scree's folder; it needs OpenImageIO");
+                         "it is built with scree and must stay in scree's folder; it needs OpenImageIO");
     };
     PictureModule module{};
     function(module.can_write, "scree_can_write_picture");
@@ -72,13 +72,15 @@ std::string encode_picture(const std::filesystem::path& name, int width, int hei
 
 void write_picture_file(const std::filesystem::path& path, int width, int height, std::span<const float> rgb)
 {
-    // Through memory: on a full disk the PNG writer reports nothing, and the JPEG library ends the program.
+    // Encoded in memory first: on a full disk the PNG writer reports nothing, and the JPEG library ends the program.
     const std::string bytes = encode_picture(path, width, height, rgb);
     AtomicFile file(path);
     std::ofstream out(file.temporary(), std::ios::binary);
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     out.close();
-    if (!out) throw InputError(path.string(), "a disk that is full or cannot be written", "room for the picture");
+    if (!out)
+        throw InputError(path.string(), "a disk that is full or cannot be written",
+                         "enough free space for the picture");
     file.commit();
 }
 

@@ -5,7 +5,7 @@
 
 namespace scree {
 
-/// Linear light as a screen encodes it, cut to 0..1: IEC 61966-2-1.
+/// Encodes linear light for a screen (sRGB, IEC 61966-2-1), clamped to 0..1.
 inline float to_srgb(float x)
 {
     x = std::clamp(x, 0.0f, 1.0f);

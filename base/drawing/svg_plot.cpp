@@ -12,10 +12,10 @@ namespace scree {
 namespace {
 
 constexpr double width = 560, height = 330, left = 66, right = 14, bottom = 48, legend_line = 18;
-// Told apart also by those who do not see red or green (Okabe, Ito 2008).
+// Distinguishable also for people who do not see red or green (Okabe, Ito 2008).
 constexpr std::array<const char*, 6> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
 
-/// One axis: what is shown of it, and where on the page.
+/// One axis: the range it shows and its position on the page.
 struct Axis {
     bool log = false;
     double lo = 0, hi = 1; ///< values; on a logarithmic axis their log10
@@ -27,7 +27,7 @@ struct Axis {
 };
 
 struct Tick {
-    double place = 0; ///< as the axis' lo and hi
+    double place = 0; ///< in the unit of the axis' lo and hi
     std::string label; ///< SVG text; empty: a small tick
 };
 
@@ -37,7 +37,7 @@ double nice_step(double extent, int wanted)
     return (ratio < 1.5 ? 1 : ratio < 3.5 ? 2 : ratio < 7.5 ? 5 : 10) * power;
 }
 
-/// m 10^k, in digits where they are few.
+/// The label of m 10^k: a plain decimal number for k from -4 to 4, otherwise with a power of ten.
 std::string plain(int k, int m)
 {
     if (k >= -4 && k <= 4) return fmt::format("{:.{}f}", m * std::pow(10, k), std::max(0, -k));
@@ -48,8 +48,8 @@ std::vector<Tick> ticks_of(const Axis& axis, int wanted)
 {
     std::vector<Tick> ticks;
     if (axis.log) {
-        const bool few = axis.hi - axis.lo <
-                         3; // decades: 2 and 5 have labels too (in less than one, all), and all are plain numbers
+        // Below 3 decades 2 and 5 have labels too (below 0.8 all digits), and the labels are plain numbers.
+        const bool few = axis.hi - axis.lo < 3;
         const int first = static_cast<int>(std::ceil(axis.lo - 1e-9)),
                   last = static_cast<int>(std::floor(axis.hi + 1e-9));
         const int each = std::max(1, (last - first + wanted - 1) / wanted);
@@ -76,7 +76,7 @@ std::vector<Tick> ticks_of(const Axis& axis, int wanted)
     return ticks;
 }
 
-/// The range of all values, with some room above and, unless bars stand on 0, below.
+/// Sets the axis to the range of all values, with a margin above and, unless bars start at 0, below.
 void fit(Axis& axis, const std::vector<double>& values, const std::optional<std::pair<double, double>>& wanted,
          bool from_zero, double room)
 {
@@ -154,7 +154,7 @@ std::string draw_bars(const PlotSeries& s, const Axis& x, const Axis& y, const c
     return svg + "</g>\n";
 }
 
-/// Where colours come again, or dashes are asked for.
+/// Whether the series is drawn with dashes: on request, or because its colour is a repeated one.
 bool is_dashed(const Plot& plot, size_t series)
 {
     return plot.series[series].style == PlotSeries::Style::dashes || series >= colours.size();
@@ -175,7 +175,7 @@ std::string draw_curve(const PlotSeries& s, const Axis& x, const Axis& y, const 
             pen_down = false;
             continue;
         }
-        // Far outside is as good as just outside, and no viewer stumbles over it.
+        // Points far outside are moved nearer: some viewers cannot handle huge coordinates.
         path += fmt::format("{}{:.2f} {:.2f}", pen_down ? 'L' : 'M', std::clamp(x.pixel(s.x[i]), -1e4, 1e4),
                             std::clamp(y.pixel(s.y[i]), -1e4, 1e4));
         pen_down = true;
@@ -203,7 +203,7 @@ std::string draw_dots(const PlotSeries& s, const Axis& x, const Axis& y, const c
     return svg + "</g>\n";
 }
 
-/// The marks with their names at their ends, one below the other, as they may lie close together.
+/// Draws the marks; the names are one below the other, because marks may be close together.
 std::string draw_marks(const Plot& plot, const Axis& x, const Axis& y)
 {
     std::string svg;
@@ -234,7 +234,7 @@ std::string draw_legend(const Plot& plot, double& used)
     double x = left;
     used = 6;
     const auto place = [&](const std::string& name, const std::string& key) {
-        // Bytes that go on with a UTF-8 character have no width.
+        // The continuation bytes of a UTF-8 character have no width.
         const auto letters =
             std::ranges::count_if(name, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; });
         const double wide = 42 + 6.8 * double(letters);
@@ -279,7 +279,7 @@ std::string xml_escaped(const std::string& text)
         else if (c == '"')
             out += "&quot;";
         else if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t')
-            out += ' '; // XML has no way to write them
+            out += ' '; // XML cannot contain control characters
         else
             out += c;
     }

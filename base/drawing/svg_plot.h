@@ -7,15 +7,15 @@
 
 namespace scree {
 
-/// Something to draw: points (x, y), or bars of height y between neighbouring entries of x, which then has one more.
+/// A data series: points (x, y), or bars of height y between neighbouring entries of x (x then has one entry more).
 struct PlotSeries {
     enum class Style { line, dashes, dots, bars };
-    std::string name; ///< for the legend; empty: not in it
+    std::string name; ///< for the legend; empty: no legend entry
     Style style = Style::line;
     std::vector<double> x, y;
-    std::vector<double> error; ///< of y, drawn as whiskers on dots; may be empty
-    /// Of a line: its points are dots too, these as rings; those not above 0 on a logarithmic axis stand on the lower
-    /// edge. May be empty.
+    std::vector<double> error; ///< error of y, drawn as whiskers on dots; may be empty
+    /// For a line: its points are also drawn as dots, as rings where true. A value not above 0 on a logarithmic axis is
+    /// a ring at the lower edge. May be empty.
     std::vector<bool> hollow{};
 };
 
@@ -28,19 +28,19 @@ struct PlotMark {
 
 /// A diagram with axes, ticks, labels and a legend.
 struct Plot {
-    std::string title, x_label, y_label; ///< the title is read by screen readers only
+    std::string title, x_label, y_label; ///< only screen readers read the title
     bool log_x = false, log_y = false;
     std::vector<PlotSeries> series;
     std::vector<PlotMark> marks;
-    std::optional<std::pair<double, double>> x_range, y_range; ///< of what is shown, where the data should not decide
+    std::optional<std::pair<double, double>> x_range, y_range; ///< the range to show; empty: chosen from the data
 };
 
-/// The plot as an <svg> element that stands on its own; well-formed XML, the same for the same plot. Values that are
-/// not finite, or not above 0 on a logarithmic axis, are left out. Lines after the sixth are dashed, as colours come
-/// again.
+/// The plot as a self-contained <svg> element: well-formed XML, identical for identical plots. Values that are not
+/// finite, or not above 0 on a logarithmic axis, are left out. Lines after the sixth are dashed, because the colours
+/// repeat.
 std::string svg_of(const Plot& plot);
 
-/// Text with &, <, > and quotes as XML wants them.
+/// Text with &, <, > and quotes escaped for XML.
 std::string xml_escaped(const std::string& text);
 
 } // namespace scree

@@ -1,5 +1,5 @@
-// Evaluations a second of every kind of mixture on one core, through the virtual call as the renderer makes them, and
-// the time to load explicit types of ten million spheres.
+// Measures the evaluations per second of every kind of mixture on one core, through the same virtual call as in the
+// renderer, and the time to load explicit types of ten million spheres.
 //
 //   mixture_bench [SPHERES]
 
@@ -101,7 +101,7 @@ void bench_tables(const ParticleFrame& frame, const std::filesystem::path& folde
     fmt::memory_buffer text;
     fmt::format_to(std::back_inserter(text), "id,type\n");
     for (size_t i = 0; i < frame.size(); ++i) {
-        const size_t k = (i * 7919) % frame.size(); // in no order
+        const size_t k = (i * 7919) % frame.size(); // in shuffled order
         fmt::format_to(std::back_inserter(text), "{},{}\n", frame.id[k], frame.type[k]);
     }
     std::ofstream(folder / "types.csv", std::ios::binary).write(text.data(), static_cast<std::streamsize>(text.size()));

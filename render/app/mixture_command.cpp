@@ -34,7 +34,7 @@ void show(const std::string& file)
     fmt::print("{}", words_of_mixture(mixture));
     const auto fractions = expected_fractions(mixture);
     if (!fractions) {
-        fmt::print("fractions depend on the spheres: scree mixture preview {} DUMP --stat\n", file);
+        fmt::print("fractions depend on the spheres; to measure them: scree mixture preview {} DUMP --stat\n", file);
         return;
     }
     fmt::print("expected fractions\n");
@@ -61,12 +61,12 @@ void print_statistics(const TypedFrame& typed)
         fmt::print("{:{}}  {:>10}  {:<30}  {}\n", typed.names[k], width, type.count, number, volume);
     }
     if (s.correlation.empty()) {
-        fmt::print("correlation length: none to measure\n");
+        fmt::print("correlation length: not measurable\n");
         return;
     }
     if (s.correlation_length == 0) {
         const auto& first = s.correlation[0];
-        fmt::print("correlation length: none; neighbours ({:.4g} apart) correlate by {:.3f} +- {:.3f}\n",
+        fmt::print("correlation length: none; neighbours ({:.4g} apart) have a correlation of {:.3f} +- {:.3f}\n",
                    first.distance, first.value, 1.96 * first.standard_error);
     } else if (std::isinf(s.correlation_length)) {
         fmt::print("correlation length: beyond {:.4g}, half of the spheres' extent\n", s.correlation.back().distance);
@@ -95,7 +95,7 @@ void preview(PreviewOptions options)
     take_radii_from_files(options.files, options.radii);
     if (options.files.size() > 2)
         throw InputError("scree mixture preview", fmt::format("{} names", options.files.size()), "MIXTURE and DUMP",
-                         "quote patterns from the shell; --frame chooses the frame");
+                         "put patterns in quotes, so that the shell does not expand them; --frame chooses the frame");
     const std::string& file = options.files[0];
     std::optional<SceneGrains> scene;
     if (is_scene(file)) scene = read_scene_grains(file);
@@ -130,7 +130,7 @@ void check(const std::string& file, const std::string& scene_file)
     }
     if (!unknown.empty()) {
         throw InputError(file, fmt::format("grain types that {} lacks: {}", scene_file, fmt::join(unknown, " ")),
-                         fmt::format("its types: {}", fmt::join(scene.types, ", ")));
+                         fmt::format("only types of the scene: {}", fmt::join(scene.types, ", ")));
     }
 
     std::vector<std::string> can = types_named(mixture, true);
@@ -147,11 +147,11 @@ void check(const std::string& file, const std::string& scene_file)
     const TypedFrame typed = evaluate_mixture(mixture, scene, scene.dump, scene.reading, -1);
     std::vector<uint64_t> count(typed.names.size(), 0);
     for (const uint32_t type : typed.types) ++count[type];
-    fmt::print("{} fits {}; in {}\n", file, scene_file, typed.title);
+    fmt::print("{} fits {}; spheres by type in {}:\n", file, scene_file, typed.title);
     for (size_t k = 0; k < count.size(); ++k) {
         const bool possible = std::ranges::find(never, typed.names[k]) == never.end();
         fmt::print("  {}: {} spheres{}\n", typed.names[k], count[k],
-                   count[k] == 0 && possible ? ", though it could be chosen" : "");
+                   count[k] == 0 && possible ? ", although it can be chosen" : "");
     }
 }
 
@@ -160,27 +160,27 @@ void check(const std::string& file, const std::string& scene_file)
 void add_mixture_command(CLI::App& app)
 {
     CLI::App* mixture =
-        app.add_subcommand("mixture", "Write a mixture of grain types, look at it, hold it against a scene");
+        app.add_subcommand("mixture", "Write a mixture of grain types, look at it, check it against a scene");
     mixture->require_subcommand(1);
     add_mixture_new_command(*mixture);
 
     auto names = std::make_shared<std::vector<std::string>>(3);
-    CLI::App* command = mixture->add_subcommand("show", "A mixture in words, with the fractions to expect");
+    CLI::App* command = mixture->add_subcommand("show", "Describe a mixture in words, with its expected fractions");
     command->add_option("MIXTURE", (*names)[0], "A mixture file or a scene")->required();
     command->callback([names] { show((*names)[0]); });
 
     auto options = std::make_shared<PreviewOptions>();
-    command =
-        mixture->add_subcommand("preview", "Three slices through a dump's spheres coloured by type, or statistics");
+    command = mixture->add_subcommand(
+        "preview", "Draw three slices through a dump's spheres, coloured by type, or print statistics");
     command->add_option("FILE", options->files, "MIXTURE (or a scene), and DUMP unless the scene has one")->required();
-    command->add_option("--frame", options->frame, "The frame, from 0; from the end when negative")
+    command->add_option("--frame", options->frame, "The frame, counted from 0, or from the end when negative")
         ->capture_default_str();
     command->add_option("-o,--output", options->output, "The picture (the mixture's name with .png when left out)");
     command->add_flag("--stat", options->statistics,
-                      "Fractions by number and volume with intervals, and the correlation length");
+                      "Print fractions by number and volume with 95 % intervals, and the correlation length");
     command->add_option("--at", options->at,
-                        "x,y,z where the three slices meet (the mean of the centres when left out)");
-    command->add_option("--width", options->width, "Of the picture in pixels, about")
+                        "x,y,z: the point where the three slices meet (the mean of the centres when left out)");
+    command->add_option("--width", options->width, "Approximate width of the picture in pixels")
         ->check(CLI::Range(300, 8000))
         ->capture_default_str();
     command->add_option("--radius", options->radii, "Radius where the dump has none: R for all, or TYPE=R ...")
@@ -189,8 +189,8 @@ void add_mixture_command(CLI::App& app)
         ->allow_extra_args(false);
     command->callback([options] { preview(*options); });
 
-    command =
-        mixture->add_subcommand("check", "Whether a mixture fits a scene: types missing, misspelt or never chosen");
+    command = mixture->add_subcommand(
+        "check", "Check whether a mixture fits a scene: finds types that are missing, misspelt or never chosen");
     command->add_option("MIXTURE", (*names)[1], "A mixture file")->required();
     command->add_option("SCENE", (*names)[2], "The scene")->required();
     command->callback([names] { check((*names)[1], (*names)[2]); });

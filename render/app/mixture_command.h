@@ -6,11 +6,10 @@ class App;
 
 namespace scree {
 
-/// Adds `scree mixture new|show|preview|check`: writes a mixture, tells and draws what it does, holds it against a
-/// scene.
+/// Adds `scree mixture new|show|preview|check`: writes a mixture, describes it, draws it, checks it against a scene.
 ///
-/// Wherever a mixture file is asked for, a scene will do: its mixture is meant. Outputs appear whole or not at all.
-/// Throws InputError out of the parse.
+/// A scene file can replace a mixture file; its mixture is then used. Outputs appear whole or not at all.
+/// Parsing a command line with bad input throws InputError.
 void add_mixture_command(CLI::App& app);
 
 /// Adds `new KIND` to `scree mixture`.

@@ -84,7 +84,7 @@ TypedFrame evaluate_mixture(const MixtureDescription& mixture, const std::option
     } else {
         result.names = types_named(mixture);
         if (needs_dump_types(mixture)) {
-            // Ordered by number, and named alike in every frame.
+            // In order of number, and with the same name in every frame.
             const std::set<int32_t> numbers(result.frame.type.begin(), result.frame.type.end());
             for (const int32_t number : numbers) {
                 file_types[number] = fmt::format("type {}", number);

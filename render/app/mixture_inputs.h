@@ -11,7 +11,7 @@
 
 namespace scree {
 
-/// What a scene says about its grain types and their spheres; the rest of it is not looked at.
+/// A scene's grain types and the source of their spheres; the rest of the scene is ignored.
 struct SceneGrains {
     std::vector<std::string> types;
     std::map<int32_t, std::string> file_types; ///< dump's number -> grain type
@@ -19,24 +19,24 @@ struct SceneGrains {
     ParticleReadOptions reading;
 };
 
-/// Whether the JSON file is a scene with grains, and not a mixture.
+/// Whether the JSON file is a scene with grains, not a mixture.
 bool is_scene(const std::filesystem::path& file);
 
-/// Throws InputError when the file is no scene with grains.
+/// Reads the grains of a scene file. Throws InputError when the file is not a scene with grains.
 SceneGrains read_scene_grains(const std::filesystem::path& file);
 
 /// One frame of a dump with the type of every sphere.
 struct TypedFrame {
     ParticleFrame frame;
-    std::vector<uint32_t> types; ///< places in names
+    std::vector<uint32_t> types; ///< indices into names
     std::vector<std::string> names;
     std::string title; ///< "file step N"
 };
 
-/// Evaluates a mixture on a frame of a dump as a film of it would: see MixtureSeries.
+/// Evaluates a mixture on one frame of a dump, as in a film of this dump; see MixtureSeries.
 ///
-/// scene: nothing, and then the types are those that the mixture names, or "type N" of the dump. frame: from the end
-/// when negative. Throws InputError.
+/// scene: may be empty; then the types are those that the mixture names, or "type N" for the dump's type number N.
+/// frame: counted from the end when negative. Throws InputError.
 TypedFrame evaluate_mixture(const MixtureDescription& mixture, const std::optional<SceneGrains>& scene,
                             const std::string& dump, const ParticleReadOptions& reading, int64_t frame);
 

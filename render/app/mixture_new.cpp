@@ -21,7 +21,7 @@ namespace {
 using nlohmann::ordered_json;
 
 struct NewOptions {
-    std::vector<std::string> words; // the types, mostly with a number each
+    std::vector<std::string> words; // the types, for most kinds with an optional number each
     std::map<std::string, std::string> values; // by JSON key
     std::string output;
 };
@@ -32,11 +32,11 @@ struct Flag {
 
 struct NewKind {
     const char *kind, *help, *word_name, *word_help;
-    const char* number_key; // where the numbers behind the words go; null: words take none
+    const char* number_key; // JSON key of the numbers after the words' "="; null: no numbers
     std::vector<Flag> flags;
 };
 
-const Flag seed{"--seed", "seed", "Another seed, another arrangement"};
+const Flag seed{"--seed", "seed", "Another seed gives another arrangement"};
 const Flag offset{"--offset", "offset", "x,y,z: shifts the pattern"};
 
 std::vector<NewKind> new_kinds()
@@ -48,7 +48,9 @@ std::vector<NewKind> new_kinds()
          "TYPE[=WEIGHT]",
          "The grain types with their weights (all 1 when left out)",
          "weights",
-         {{"--by", "by", "number (each sphere by itself) or volume (fractions by volume to about the smallest sphere)"},
+         {{"--by", "by",
+           "number (each sphere draws independently) or volume (fractions by volume, exact to about the smallest "
+           "sphere)"},
           seed}},
         {"perlin",
          "Patches of Perlin noise",
@@ -57,56 +59,56 @@ std::vector<NewKind> new_kinds()
          "fraction",
          {{"--scale", "scale", "Width of the noise's lattice; one number or x,y,z (required)"},
           {"--threshold", "threshold", "Noise (-1..1) where the next type begins; one fewer than types"},
-          {"--fraction", "fraction", "Fraction of the first type, or of each: T,U,...; the thresholds are solved for"},
-          {"--octaves", "octaves", "Layers of ever finer noise"},
-          {"--lacunarity", "lacunarity", "Frequency of an octave over that of the one before"},
-          {"--gain", "gain", "Amplitude of an octave over that of the one before"},
+          {"--fraction", "fraction", "Fraction of the first type, or of each: T,U,...; Scree computes the thresholds"},
+          {"--octaves", "octaves", "Number of layers of ever finer noise"},
+          {"--lacunarity", "lacunarity", "Frequency of an octave over the frequency of the previous octave"},
+          {"--gain", "gain", "Amplitude of an octave over the amplitude of the previous octave"},
           offset,
           seed}},
         {"checkerboard",
-         "Cells in turns",
+         "Cells of alternating types",
          "TYPE",
          "The grain types",
          nullptr,
          {{"--cell", "cell", "Edge of a cell; one number or x,y,z (required)"},
-          {"--offset", "offset", "x,y,z of a corner"},
+          {"--offset", "offset", "Position of a corner: x,y,z"},
           {"--rotation", "rotation", "Degrees about x, then y, then z: x,y,z"}}},
         {"layers",
          "Layers along a direction",
          "TYPE[=THICKNESS]",
          "The layers in order",
          "thicknesses",
-         {{"--thickness", "thicknesses", "Of every layer, or of each: T,U,..."},
-          {"--direction", "direction", "x,y,z from the first layer to the next (0,0,1 when left out)"},
+         {{"--thickness", "thicknesses", "Thickness of all layers, or of each: T,U,..."},
+          {"--direction", "direction", "x,y,z: from the first layer to the next (0,0,1 when left out)"},
           {"--offset", "offset", "Where the first layer begins along the direction"},
-          {"--repeat", "repeat", "false: once, the first and the last without end"},
-          {"--jitter", "jitter/amplitude", "Moves the faces by noise of this amplitude"},
-          {"--jitter-scale", "jitter/scale", "Width of that noise's lattice"},
-          {"--jitter-seed", "jitter/seed", "Its seed"}}},
+          {"--repeat", "repeat", "false: the layers do not repeat, and the first and the last have no end"},
+          {"--jitter", "jitter/amplitude", "Amplitude of the noise that moves the faces"},
+          {"--jitter-scale", "jitter/scale", "Width of the lattice of this noise"},
+          {"--jitter-seed", "jitter/seed", "Seed of this noise"}}},
         {"radius",
-         "By the sphere's radius",
+         "The sphere's radius decides",
          "TYPE",
          "The grain types, from small to large",
          nullptr,
          {{"--thresholds", "thresholds", "Radii where the next type begins: R,S,... (required)"}}},
         {"grid",
-         "By concentrations in OpenVDB grids",
+         "Each sphere draws its type by concentrations in OpenVDB grids",
          "TYPE=FILE[:GRID]",
          "The grain types, each with its field",
          nullptr,
-         {{"--rest", "rest", "Type where the concentrations leave room"}, seed}},
+         {{"--rest", "rest", "Type for the probability that the concentrations leave below 1"}, seed}},
         {"blend",
-         "One mixture picks between others",
+         "One mixture chooses between others",
          "NAME=TYPE|FILE.json",
-         "The mixtures and how the picking one calls them",
+         "The mixtures, each with the name that the mixture of --by uses for it",
          nullptr,
-         {{"--by", "by", "FILE.json: the mixture that picks; its types are the NAMEs (required)"}}},
+         {{"--by", "by", "FILE.json: the mixture that chooses; its types are the NAMEs (required)"}}},
         {"explicit",
-         "As the dump or a table says",
+         "The dump or a table gives each sphere's type",
          "NUMBER=TYPE",
-         "What the numbers mean (when left out: what the scene says)",
+         "The grain type of each type number (the scene's map when left out)",
          nullptr,
-         {{"--table", "table", "Types by row or id: .csv or .vdb"},
+         {{"--table", "table", "A table of types by row or id: .csv or .vdb"},
           {"--column", "column", "The table's column (or attribute) of types"},
           {"--id", "id", "The table's column of ids"}}},
     };
@@ -159,7 +161,7 @@ void add_types(const NewKind& kind, const NewOptions& options, ordered_json& jso
         throw InputError(place, fmt::format("{} of {} types with a number", numbers.size(), options.words.size()),
                          "a number for each, or for none");
     if (options.values.contains(kind.number_key))
-        throw InputError(place, "numbers behind the types and an option for them", "one of both");
+        throw InputError(place, "numbers after the types and an option for the same numbers", "only one of the two");
     json[kind.number_key] = numbers;
 }
 
@@ -203,7 +205,7 @@ ordered_json json_of(const NewKind& kind, const NewOptions& options)
 
 void run(const NewKind& kind, const NewOptions& options)
 {
-    // Through the reader: what it would refuse later is refused now, and a file holds what another session would write.
+    // The reader checks the mixture now, so that no later command refuses the file; write_mixture gives the usual form.
     const std::string name = "scree mixture new " + std::string(kind.kind);
     const JsonDocument document = JsonDocument::parse(json_of(kind, options).dump(), name, ".");
     const MixtureDescription mixture = read_mixture(document.root());
@@ -216,7 +218,7 @@ void run(const NewKind& kind, const NewOptions& options)
     AtomicFile file(output);
     std::ofstream out(file.temporary(), std::ios::binary);
     if (!(out << text).flush())
-        throw InputError(options.output, "a file that cannot be written", "room and permission to write");
+        throw InputError(options.output, "a file that cannot be written", "free space and permission to write");
     out.close();
     file.commit();
     fmt::print("{}: {}", options.output, words_of_mixture(mixture));

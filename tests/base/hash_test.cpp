@@ -1,4 +1,5 @@
-// The hash is part of the file formats: written-down values, reckoned outside of Scree from the formulas in hash.h.
+// The hash is part of the file formats: these tests compare it with values computed outside of Scree from the formulas
+// in hash.h.
 
 #include "base/hash.h"
 #include "tests/mixtures/mixture_builders.h"
@@ -54,7 +55,7 @@ TEST(Hash, TypesOfARandomMixture)
 
 TEST(Hash, StreamsInsideABlend)
 {
-    // Mixture 1 of the blend, so stream mix64(2 G).
+    // Mixture 1 of the blend has stream mix64(2 G).
     EXPECT_EQ(types_as_text(R"({"kind": "blend", "by": "n", "mixtures": {"m": "c",
                                "n": {"kind": "random", "types": ["a", "b"], "seed": 1}}})"),
               "1010000001011000110111001000101101111110000110101000011101001010");

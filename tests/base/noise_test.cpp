@@ -10,13 +10,13 @@
 namespace scree {
 namespace {
 
-/// The same noise written the other way round: a sum over the eight corners, each with its weight, and the gradient's
-/// dot product chosen by the bits of the hash (Perlin 2002). The permutation is rebuilt from its cycles, below.
+/// The same noise in another form: a weighted sum over the eight corners, where the bits of the hash choose the
+/// gradient's dot product (Perlin 2002). The permutation is rebuilt from its cycles, below.
 class Reference {
 public:
     Reference()
     {
-        // One line a cycle: every number is followed by what the permutation maps it to.
+        // One line per cycle: the permutation maps every number to the next one.
         for (const auto& cycle : cycles())
             for (size_t k = 0; k < cycle.size(); ++k) p_[static_cast<size_t>(cycle[k])] = cycle[(k + 1) % cycle.size()];
     }
@@ -92,7 +92,7 @@ TEST(Noise, AThousandPointsAgainstAnIndependentImplementation)
         const double range = i % 2 ? 600 : 4;
         const double x = range * (numbers.unit() - 0.5), y = range * (numbers.unit() - 0.5),
                      z = range * (numbers.unit() - 0.5);
-        // Weights as sums of powers: some rounding apart.
+        // The reference computes its weights as sums of powers, so rounding differs.
         EXPECT_NEAR(improved_noise(x, y, z), reference(x, y, z), 4e-14) << x << " " << y << " " << z;
     }
 }

@@ -1,4 +1,4 @@
-// Picture files through OpenImageIO, and that nothing loads it but a picture.
+// Picture files are read and written through OpenImageIO; only commands that need a picture file load it.
 
 #include "base/drawing/picture.h"
 #include "base/drawing/picture_file.h"
@@ -45,7 +45,7 @@ TEST(PictureFile, EightBitValuesComeBackExactly)
     }
 }
 
-// The nearest of the 256, not the one below.
+// Rounded to the nearest of the 256 values, not down.
 TEST(PictureFile, ValuesAreRounded)
 {
     const TemporaryFolder folder;
@@ -94,7 +94,7 @@ TEST(PictureFile, WhatFailsIsTold)
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
-// With it, the loader's work would be most of what a short command takes.
+// Otherwise most of the time of a short command would be spent on loading it.
 TEST(PictureModule, ProgramStartsWithoutOpenImageIO)
 {
     setenv("LD_TRACE_LOADED_OBJECTS", "1", 1); // what ldd does

@@ -1,4 +1,5 @@
-// Mixtures as JSON: any generated one survives the round trip and evaluates the same; any damaged one is an InputError.
+// Mixtures as JSON: every generated mixture survives the round trip and evaluates the same; a damaged mixture can only
+// cause an InputError.
 
 #include "base/json.h"
 #include "mixtures/describe_mixture.h"
@@ -22,7 +23,7 @@ using testing::HasSubstr;
 
 const std::vector<std::string> scene_types{"a", "b", "c", "d"};
 
-/// Mixtures of every kind, nested up to a depth; every option is there in some of them.
+/// Generates mixtures of every kind, nested up to a depth; every option occurs in some of them.
 class Generator {
 public:
     explicit Generator(uint64_t seed) : n_(seed) {}
@@ -187,7 +188,7 @@ TEST_F(MixtureJson, ExpectedFractionsAreWhatSpheresShow)
         const MixtureDescription description = read(text);
         const auto expected = expected_fractions(description);
         if (!expected || text.find("by\":{\"by") != std::string::npos) continue;
-        // Where the place decides both what picks and what is picked, the fractions are no product.
+        // Where the position decides both in `by` and in the chosen mixture, the fractions are not a product.
         if (text.find("mixtures") != std::string::npos) continue;
         ++known;
         std::vector<double> count(4, 0);
@@ -213,7 +214,7 @@ TEST_F(MixtureJson, DamagedMixturesAreInputErrorsAndNeverWorse)
         test::Numbers& n = generator.raw();
         std::string text;
         json tree = generator.mixture(2, scene_types);
-        if (generator.flip()) { // a value of the tree becomes another one
+        if (generator.flip()) { // change a value of the tree
             json flat = tree.flatten();
             const auto keys = flat.items();
             auto it = keys.begin();
@@ -238,7 +239,7 @@ TEST_F(MixtureJson, DamagedMixturesAreInputErrorsAndNeverWorse)
             } catch (const json::exception&) {
             }
             text = tree.dump();
-        } else { // bytes of the text do
+        } else { // change bytes of the text
             text = tree.dump();
             for (uint64_t k = 1 + n.below(4); k > 0 && !text.empty(); --k) {
                 const size_t at = n.below(text.size());
@@ -321,7 +322,7 @@ TEST_F(MixtureJson, NestingHasAnEnd)
     EXPECT_THAT(error(text), HasSubstr("deep"));
 }
 
-/// The names an object may have by the schema, and whether all of an object's are among them, all through the tree.
+/// Checks for every object of the tree that the schema knows all its keys, and that its required keys are present.
 void check_against_schema(const json& value, const json& schema, const std::string& text)
 {
     if (value.is_string()) return;
@@ -348,7 +349,7 @@ TEST_F(MixtureJson, TheSchemaKnowsTheKeys)
         check_against_schema(json::parse(text), schema, text);
         check_against_schema(json::parse(write_mixture(read(text), folder_.path()).dump()), schema, text);
     }
-    // The other way: the reader lists what it knows when a key is unknown, and the schema has no more.
+    // The reverse: for an unknown key the reader lists all keys that it knows, and the schema must have no others.
     for (const auto& [kind, start] :
          std::map<std::string, std::string>{{"single", R"("type": "a")"},
                                             {"explicit", R"("table": "t.csv")"},

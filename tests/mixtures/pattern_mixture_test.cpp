@@ -28,7 +28,7 @@ TEST(PossibleTypes, AreThoseThatAMixtureCanGive)
     EXPECT_EQ(possible(R"({"kind": "checkerboard", "types": ["a", "c"], "cell": 2})"), (Types{0, 2}));
     EXPECT_EQ(possible(R"({"kind": "perlin", "types": ["b", "c"], "scale": 1})"), (Types{1, 2}));
     EXPECT_EQ(possible(R"({"kind": "random", "types": ["a", "b", "c"], "weights": [1, 0, 1]})"), (Types{0, 2}))
-        << "no sphere draws what weighs nothing";
+        << "no sphere draws a type of weight 0";
     EXPECT_EQ(possible(R"("b")"), Types{1});
     EXPECT_EQ(ExplicitMixture(std::vector<uint32_t>{7, 300, 7}).possible_types(), (Types{7, 300}));
     EXPECT_EQ(ExplicitMixture(std::vector<uint8_t>{2, 0, 2}).possible_types(), (Types{0, 2}));
@@ -36,7 +36,7 @@ TEST(PossibleTypes, AreThoseThatAMixtureCanGive)
     inner.push_back(std::make_unique<SingleMixture>(4));
     inner.push_back(std::make_unique<SingleMixture>(5));
     EXPECT_EQ(BlendMixture(std::make_unique<SingleMixture>(1), std::move(inner)).possible_types(), Types{5})
-        << "the other is never asked";
+        << "the other mixture is never chosen";
 }
 
 TEST(Checkerboard, CellsTakeTurns)
@@ -94,7 +94,7 @@ TEST(Checkerboard, PlacesFarOutDoNotCrash)
 
 TEST(Patterns, DoNotDependOnTheFramesOrigin)
 {
-    // The same spheres, positions counted from elsewhere: the pattern stays where it is in the file's frame.
+    // The same spheres with another origin: the pattern keeps its position in the file's coordinates.
     ParticleFrame frame = test::random_spheres(2000, 64, 0, V3d(1e6, -1e6, 0)), shifted = frame;
     shifted.origin += V3d(8, -16, 32);
     for (const char* json : {R"({"kind": "checkerboard", "types": ["a", "b"], "cell": 5})",
@@ -119,7 +119,8 @@ TEST(Patterns, ScaleBySixteenWithTheScene)
         {R"({"kind": "perlin", "types": ["a", "b"], "scale": 3, "octaves": 3})",
          R"({"kind": "perlin", "types": ["a", "b"], "scale": 48, "octaves": 3})"},
         {R"({"kind": "layers", "types": ["a", "b"], "thicknesses": [1, 2], "jitter": {"amplitude": 1, "scale": 2}})",
-         R"({"kind": "layers", "types": ["a", "b"], "thicknesses": [16, 32], "jitter": {"amplitude": 16, "scale": 32}})"}};
+         R"({"kind": "layers", "types": ["a", "b"], "thicknesses": [16, 32], )"
+         R"("jitter": {"amplitude": 16, "scale": 32}})"}};
     for (const auto& [small, big] : pairs)
         EXPECT_EQ(test::types_of(*test::mixture_of(small, &frame), frame),
                   test::types_of(*test::mixture_of(big, &large), large))
@@ -218,7 +219,7 @@ TEST(Grid, ChancesAreTheConcentrations)
 {
     const test::TemporaryFolder folder;
     test::write_ramp(folder.path("ramp.vdb"), 11);
-    // At x = 4.25 the concentration is 0.425, in trilinear interpolation.
+    // At x = 4.25 trilinear interpolation gives a concentration of 0.425.
     const auto mixture =
         test::mixture_of(R"({"kind": "grid", "fields": [{"type": "b", "file": "ramp.vdb", "grid": "c"}], "rest": "a"})",
                          nullptr, folder.path());
@@ -237,7 +238,7 @@ TEST(Grid, SeveralFieldsShareByTheirSum)
 {
     const test::TemporaryFolder folder;
     test::write_ramp(folder.path("ramp.vdb"), 11);
-    // The field twice and no rest: half and half wherever it is not 0; there, the first.
+    // The same field twice and no rest: half and half where the field is not 0, the first type where it is 0.
     const auto mixture = test::mixture_of(
         R"({"kind": "grid", "fields": [{"type": "c", "file": "ramp.vdb"}, {"type": "b", "file": "ramp.vdb"}]})",
         nullptr, folder.path());

@@ -45,7 +45,7 @@ TEST(RandomMixture, FractionsByNumberFollowTheWeights)
     }
 }
 
-/// Pairs of types of two rows of choices among three, against their independence.
+/// Chi-square test that the types from two mixtures of three equal weights are independent.
 ChiSquare independence(const Mixture& first, uint64_t shift, const Mixture& second)
 {
     std::vector<double> observed(9, 0), expected(9, double(million) / 9);
@@ -134,7 +134,7 @@ TEST(RandomByVolume, FractionsAreRightOnAStronglyPolydisperseSet)
             for (size_t k = 0; k < weights.size(); ++k) EXPECT_NEAR(fractions[k], weights[k] / sum, 0.002) << count;
         }
     }
-    // What the scheme is for: independent draws miss by far more.
+    // Why the scheme is needed: independent draws miss by far more.
     const ParticleFrame frame = test::random_spheres(million, 100, 1.0);
     double worst = 0;
     for (uint64_t seed = 0; seed < 5; ++seed) {

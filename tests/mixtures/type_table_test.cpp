@@ -63,7 +63,7 @@ TEST_F(TypeTables, ExplicitMixtureById)
     folder_.write("t.csv", "id,type\n6,2\n1000000000000,b\n5,3\n3,1\n8,1\n");
     EXPECT_THAT(types(R"({"kind": "explicit", "table": "t.csv", "types": {"1": "d", "2": "c", "3": "a"}})", frame),
                 ElementsAre(3, 0, 2, 1));
-    // Without a map of its own, that of the assembly.
+    // Without its own map, the mixture uses the assembly's map.
     EXPECT_THAT(types(R"({"kind": "explicit", "table": "t.csv"})", frame), ElementsAre(0, 2, 1, 1));
     frame.id[0] = 4;
     const auto missing = test::input_error_of([&] { types(R"({"kind": "explicit", "table": "t.csv"})", frame); });
@@ -77,7 +77,7 @@ TEST_F(TypeTables, ExplicitMixtureById)
                 HasSubstr("zz"));
     folder_.write("t.csv", "type\n1\n2\n");
     EXPECT_THAT(test::input_error_of([&] { types(R"({"kind": "explicit", "table": "t.csv"})", frame); })->what(),
-                HasSubstr("as many as spheres, 4"));
+                HasSubstr("as many rows as spheres, 4"));
 }
 
 TEST_F(TypeTables, OpenVdbPointsByIdAndByRow)

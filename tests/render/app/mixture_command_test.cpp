@@ -103,7 +103,7 @@ TEST_F(MixtureCommand, PreviewDrawsAndMeasures)
     EXPECT_TRUE(test::input_error_of([&] { run({"preview", path("m.json")}); }));
     EXPECT_TRUE(test::input_error_of([&] { run({"preview", path("m.json"), pour, "--frame", "5"}); }));
     EXPECT_TRUE(test::input_error_of([&] { run({"preview", path("m.json"), pour, "-o", path("m.zzz")}); }));
-    // A scene brings its dump and its names.
+    // A scene provides its dump and its names.
     EXPECT_THAT(run({"preview", std::string(SCREE_EXAMPLES) + "/pour/scene.json", "--stat"}), HasSubstr("terracotta"));
 }
 
@@ -121,7 +121,7 @@ TEST_F(MixtureCommand, CheckFindsWhatDoesNotFit)
 
 TEST(PatternStatistics, IntervalsHoldTheirLevel)
 {
-    // Independent draws on spheres of equal size: 95 of 100 intervals must hold the truth.
+    // Independent draws: 95 of 100 intervals must contain the true fraction.
     int number = 0, volume = 0;
     for (uint64_t seed = 0; seed < 200; ++seed) {
         const ParticleFrame frame = test::random_spheres(4000, 30, 0.3, Imath::V3d(0), seed);
@@ -140,8 +140,9 @@ TEST(PatternStatistics, IntervalsHoldTheirLevel)
 
 TEST(PatternStatistics, CorrelationLengthOfLayersIsAsReckoned)
 {
-    // Layers of thickness t in turns: over a distance d in direction cosine c the correlation is a triangle wave of |c|
-    // d, 1 - 2 |c| d / t up to t; the mean over directions is 1 - d / t while d < t, so it falls to 1/e at t (1 - 1/e).
+    // Alternating layers of thickness t: over a distance d at direction cosine c the correlation is a triangle wave of
+    // |c| d, with 1 - 2 |c| d / t up to t. The mean over directions is 1 - d / t while d < t, so it falls to 1/e at
+    // d = t (1 - 1/e).
     const ParticleFrame frame = test::random_spheres(200000, 60);
     const double t = 12;
     const auto mixture = test::mixture_of(R"({"kind": "layers", "types": ["a", "b"], "thicknesses": 12})", &frame);
