@@ -10,7 +10,7 @@ namespace {
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
-/// A frame of the given box lines (under their own ITEM line), columns and rows.
+/// A dump of one frame with the given box lines (including their ITEM line), columns and rows.
 std::string dump(const std::string& box, const std::string& columns, const std::vector<std::string>& rows,
                  const std::string& before = "", int step = 100)
 {
@@ -103,7 +103,7 @@ TEST_F(DumpReading, PlacesWinOverFractions)
     expect_near(read_unit(dump(cube, "xs ys zs xu yu zu x y z", {"0 0 0 11 11 11 1 2 3"})).position[0], {1, 2, 3});
 }
 
-/// The LAMMPS manual's relation: bounds = cell corner plus the extremes of the tilts.
+/// A tilted box; the LAMMPS manual's relation: bounds = cell corner plus the extremes of the tilts.
 const std::string tilted = "ITEM: BOX BOUNDS xy xz yz pp pp pp\n-1 14 3\n0 9 -2\n0 5 -1\n";
 
 TEST_F(DumpReading, TiltedBoxIsRecoveredFromItsBoundingBox)
