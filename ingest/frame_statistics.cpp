@@ -19,8 +19,8 @@ namespace scree {
 
 namespace {
 
-// A sphere of a real bed has a few hundred others in the cells around it. With more the radii are wrong, or grains
-// lie on top of each other, and looking at all pairs would take for ever.
+// A sphere of a real bed has a few hundred others in the cells around it. If there are more, the radii are wrong or
+// grains lie on top of each other, and testing all pairs would take too long.
 constexpr size_t most_candidates = 2048;
 
 /// Periodic images: the box's edges along the axes that repeat.
@@ -44,7 +44,7 @@ public:
 
     bool any() const { return any_; }
 
-    /// The image inside the box.
+    /// The place's periodic image inside the box.
     Imath::V3d wrapped(Imath::V3d place) const
     {
         for (size_t k = 0; k < 3; ++k)
@@ -52,7 +52,7 @@ public:
         return place;
     }
 
-    /// How far the (wrapped) place is from the nearest face that repeats.
+    /// Distance of the (wrapped) place from the nearest periodic face.
     double clearance(const Imath::V3d& place) const
     {
         double least = std::numeric_limits<double>::infinity();
@@ -64,7 +64,7 @@ public:
         return least;
     }
 
-    /// The shifts that bring the (wrapped) place within reach of what lies in the box; the first is none.
+    /// The periodic shifts that bring the (wrapped) place into the box or within `reach` of it; the first shift is 0.
     void shifts(const Imath::V3d& place, double reach, std::vector<Imath::V3d>& out) const
     {
         out.assign(1, Imath::V3d(0));
@@ -96,7 +96,7 @@ struct Overlaps {
     void add(double overlap, uint64_t i, uint64_t j)
     {
         if (i > j) std::swap(i, j);
-        // Equal overlaps: the pair that comes first, whatever the threads did.
+        // Of equal overlaps the pair with the lowest indices counts, so that the result does not depend on threads.
         const bool earlier = i != first ? i < first : j < second;
         if (overlap > greatest || (overlap == greatest && earlier)) {
             greatest = overlap;
@@ -112,7 +112,7 @@ struct Overlaps {
     }
 };
 
-/// The overlaps of one level's spheres with those of its own and of larger levels.
+/// The overlaps of the spheres begin..end of one level with spheres of the same level and of levels of larger spheres.
 Overlaps overlaps_of(const SphereGrid& grid, const Periodicity& periodicity, size_t level, size_t begin, size_t end)
 {
     Overlaps result;
@@ -134,7 +134,7 @@ Overlaps overlaps_of(const SphereGrid& grid, const Periodicity& periodicity, siz
                 const Imath::V3d place = self.position + shifts[s];
                 const bool done = grid.visit_near(other, place, reach, [&](const SphereGrid::Entry& entry) {
                     if (++candidates > most_candidates) return false;
-                    // Of two of one level the lower index asks; a sphere asks for its own images.
+                    // Within a level the lower index tests the pair; a sphere also tests its own images, not itself.
                     if (other == level && (entry.index < self.index || (entry.index == self.index && s == 0)))
                         return true;
                     const double touch = double(self.radius) + double(entry.radius);
@@ -148,7 +148,7 @@ Overlaps overlaps_of(const SphereGrid& grid, const Periodicity& periodicity, siz
                 result.complete = result.complete && done;
             }
         }
-        // In a small box one pair meets through several images, and counts once.
+        // In a small box one pair may overlap through several images; it counts once.
         std::ranges::sort(hits);
         for (size_t i = 0; i < hits.size(); ++i) {
             if (i + 1 < hits.size() && hits[i + 1].first == hits[i].first) continue;
@@ -199,7 +199,7 @@ uint64_t count_duplicates(const std::vector<Imath::V3d>& positions)
     return count;
 }
 
-/// The part of the box between the centres' quartiles that lies inside of spheres.
+/// The part of the box between the quartiles of the centres that lies inside spheres.
 std::optional<double> measure_bed(const SphereGrid& grid, const std::vector<Imath::V3d>& positions)
 {
     if (positions.size() < 1000) return std::nullopt;

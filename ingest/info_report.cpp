@@ -19,7 +19,7 @@ json to_json(const Imath::V3d& v) { return {v.x, v.y, v.z}; }
 
 json to_json(const std::optional<double>& value) { return value ? json(*value) : json(); }
 
-/// A float as the short decimal number it was read from.
+/// The shortest decimal number that reads back as the same float.
 double shortest(double value) { return to_double(fmt::format("{}", static_cast<float>(value))).value_or(value); }
 
 json describe_box(const SimulationBox& box)
@@ -33,7 +33,7 @@ json describe_box(const SimulationBox& box)
             {"volume", box.volume()}};
 }
 
-/// Adds what the frame holds and what is measured of it; nothing that rests on radii when there are none.
+/// Adds the frame's contents and statistics to the result; without radii, the values that need radii are null.
 void describe_frame(json& result, const ParticleFrame& frame, bool has_radius)
 {
     result["step"] = frame.step;
@@ -67,7 +67,7 @@ void describe_frame(json& result, const ParticleFrame& frame, bool has_radius)
     result["overlaps_complete"] = statistics.overlaps_complete;
     if (!statistics.overlaps_complete)
         result["notes"].push_back(
-            "spheres have thousands of neighbours, so that not every pair was looked at: is the radius right?");
+            "spheres have thousands of neighbours, so not every pair was tested: is the radius right?");
 }
 
 std::string words_of(const json& values)
@@ -78,7 +78,7 @@ std::string words_of(const json& values)
     return fmt::format("{}", fmt::join(words, " "));
 }
 
-/// "16" or "16 to 20": what stands in an array that may be long.
+/// "16" or "16 to 20": the range of the values of an array, which may be long.
 std::string range_of(const json& values)
 {
     const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
@@ -131,7 +131,7 @@ void append_spheres(std::string& text, const json& d)
                                d["max_overlap_ids"][1].dump()));
     }
     if (d["duplicates"].get<uint64_t>() > 0)
-        append(text, "duplicates", d["duplicates"].dump() + " grains exactly where another one is");
+        append(text, "duplicates", d["duplicates"].dump() + " grains at exactly the place of another grain");
 }
 
 std::string title_of_format(const std::string& name)
@@ -205,7 +205,7 @@ std::string text_of_description(const json& d)
            title_of_format(d["format"].get<std::string>()) +
                (d["units"].is_null() ? "" : ", units " + d["units"].get<std::string>()));
     append(text, "frames", fmt::format("{}, steps {}", d["frames"].dump(), range_of(d["steps"])));
-    append(text, "particles", range_of(d["particles"]) + (d["frames"] == 1 ? "" : " a frame"));
+    append(text, "particles", range_of(d["particles"]) + (d["frames"] == 1 ? "" : " per frame"));
     if (!d["columns"].is_null()) append(text, "columns", words_of(d["columns"]));
     append(text, "frame",
            fmt::format("{}: step {}{}", d["frame"].dump(), d["step"].dump(),

@@ -13,7 +13,8 @@ int level_number(double radius, double largest)
 {
     if (!(radius > 0)) return std::numeric_limits<int>::min();
     int halvings = 0;
-    // Not exactly halves of the largest: sizes are often given from R to 2 R, and those should share a level.
+    // The limits are not at exact halves of the largest radius: radii often go from R to 2 R, and those should share a
+    // level.
     std::frexp(0.75 * largest / radius, &halvings);
     return -std::max(halvings, 0);
 }
@@ -46,7 +47,7 @@ void SphereGrid::build(Level& level)
             level.hi[axis] = std::max(level.hi[axis], entry.position[axis]);
         }
     }
-    // Points need cells of some width: about one a cell if they were spread evenly.
+    // Spheres of radius 0 need cells of some width too: about one sphere per cell if they are spread evenly.
     const Imath::V3d extent = level.hi - level.lo;
     const double widest = std::max({extent.x, extent.y, extent.z});
     const double width =
@@ -63,7 +64,7 @@ void SphereGrid::build(Level& level)
     }
     const uint64_t mask = buckets - 1;
     const bool hashed = level.stride_y == 0;
-    if (hashed) level.filled.assign(std::bit_ceil(16 * count + 48) / 64, 0); // some 16 bits a sphere
+    if (hashed) level.filled.assign(std::bit_ceil(16 * count + 48) / 64, 0); // about 16 bits per sphere
     level.starts.assign(buckets + 1, 0);
     for (Entry& entry : level.entries) {
         const Imath::V3d& p = entry.position;
@@ -73,7 +74,7 @@ void SphereGrid::build(Level& level)
         if (hashed) level.filled[bit / 64] |= uint64_t{1} << (bit % 64);
     }
     for (size_t i = 1; i < level.starts.size(); ++i) level.starts[i] += level.starts[i - 1];
-    // Counting sort by bucket: stable, so that the order is that of the spheres.
+    // Counting sort by bucket; it is stable, so the entries of a bucket stay in the order of the spheres.
     std::vector<Entry> sorted(level.entries.size());
     std::vector<uint64_t> next(level.starts.begin(), level.starts.end() - 1);
     for (const Entry& entry : level.entries) sorted[next[entry.cell & mask]++] = entry;

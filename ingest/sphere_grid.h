@@ -12,8 +12,9 @@ namespace scree {
 
 /// Finds the spheres near a place among spheres of very different sizes.
 ///
-/// A level for every factor of two of the radius; a level is a grid of cells as wide as its largest diameter, kept
-/// as a hash table of its filled cells. So cost and memory depend neither on the extent nor on the ratio of radii.
+/// There is one level per factor of two of the radius. A level is a grid of cells as wide as its largest diameter,
+/// stored as a hash table of its filled cells. So cost and memory depend neither on the extent nor on the ratio of
+/// radii.
 class SphereGrid {
 public:
     struct Entry {
@@ -23,18 +24,19 @@ public:
         float radius = 0;
     };
 
-    /// All of one length. The grid keeps copies.
+    /// Both spans have the same length. The grid keeps copies.
     SphereGrid(std::span<const Imath::V3d> positions, std::span<const float> radii);
 
-    /// Levels go from small spheres to large ones; spheres without radius have the first for themselves.
+    /// Levels go from small spheres to large ones; spheres of radius 0 have a level of their own, the first.
     size_t level_count() const { return levels_.size(); }
     /// Largest radius of the level.
     double level_radius(size_t level) const { return levels_[level].radius; }
-    /// The level's spheres, neighbours near each other.
+    /// The level's spheres, sorted by cell, so that most neighbours are near each other in memory.
     std::span<const Entry> entries(size_t level) const { return levels_[level].entries; }
 
-    /// Calls visit(entry) for every sphere of the level whose centre is within `reach` along each axis (at most
-    /// twice the level's radius, for speed), and for some others; stops and returns false when visit returns false.
+    /// Calls visit(entry) for every sphere of the level whose centre is within `reach` along each axis, and for some
+    /// others; stops and returns false when visit returns false. For speed, `reach` should be at most twice the level's
+    /// radius.
     template <class Visit>
     bool visit_near(size_t level, const Imath::V3d& place, double reach, const Visit& visit) const
     {
@@ -51,7 +53,7 @@ public:
             for (uint64_t y = lo[1]; y <= hi[1]; ++y) {
                 const uint64_t row = grid.row_key(y, z);
                 for (uint64_t x = lo[0]; x <= hi[0];) {
-                    // Cells along x have neighbouring buckets: all up to the end of the table in one go.
+                    // Cells along x have consecutive buckets: read all up to the end of the table at once.
                     const uint64_t first = row + x, bucket = first & mask;
                     const uint64_t more = std::min(hi[0] - x, mask - bucket);
                     x += more + 1;
@@ -68,11 +70,11 @@ private:
     struct Level {
         double radius = 0, cells_per_length = 1;
         Imath::V3d lo{0}, hi{0};
-        uint64_t stride_y = 0, stride_z = 0; ///< of the keys; 0: the rows' keys are hashes
-        std::vector<uint64_t> starts; ///< of each bucket's entries, and the end; a power of two of buckets
+        uint64_t stride_y = 0, stride_z = 0; ///< step of the key per row and per layer; 0: the keys of rows are hashes
+        std::vector<uint64_t> starts; ///< first entry of each bucket, and the end; 2^n buckets
         std::vector<Entry> entries; ///< sorted by bucket
-        std::vector<uint64_t>
-            filled; ///< with hashed rows: a bit is set where cells of that key (its low bits) are filled
+        /// Only with hashed rows: the bit of a key (its low bits) is set when a cell of this key is filled.
+        std::vector<uint64_t> filled;
 
         uint64_t coordinate(double x, int axis) const
         {
@@ -81,7 +83,8 @@ private:
             return static_cast<uint64_t>(std::min((clamped - lo[axis]) * cells_per_length, 4e18));
         }
 
-        /// False only when the cells of keys first to first + more are empty: most are, and this fits a near cache.
+        /// False only if the cells of keys first to first + more are all empty. Most cells are, and this table fits a
+        /// fast cache.
         bool may_hold(uint64_t first, uint64_t more) const
         {
             if (filled.empty()) return true;
@@ -93,10 +96,10 @@ private:
             return false;
         }
 
-        /// The key of cell (0, y, z); cell (x, y, z) has x more, and its bucket is the key's low bits.
+        /// The key of cell (0, y, z). The key of cell (x, y, z) is greater by x; its low bits are the cell's bucket.
         uint64_t row_key(uint64_t y, uint64_t z) const
         {
-            // Where each cell can have its own bucket, neighbouring rows lie together in memory.
+            // If there are enough buckets for all cells, no hash is needed, and neighbouring rows are close in memory.
             if (stride_y > 0) return y * stride_y + z * stride_z;
             uint64_t h = y * 0x9e3779b97f4a7c15u;
             h = (h ^ (h >> 32) ^ z) * 0xbf58476d1ce4e5b9u;

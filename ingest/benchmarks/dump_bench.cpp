@@ -1,4 +1,4 @@
-// How fast a dump is read, beside counting its lines: `dump_bench [MEGABYTES]`.
+// Measures how fast a dump is read, compared with counting its lines: `dump_bench [MEGABYTES]`.
 //
 // Writes dumps to the temporary folder, reads each on one core (from the page cache), and prints MB of text per second
 // of processor time. "open" finds the frames, "read" parses one.
@@ -30,7 +30,7 @@ using scree::DumpSeries;
 struct Case {
     const char* name;
     bool wide; ///< velocities and forces too
-    bool shuffled; ///< rows in the order that LAMMPS leaves them in
+    bool shuffled; ///< rows in random order, as LAMMPS leaves them
     bool packed;
 };
 
@@ -50,7 +50,7 @@ void write_dump(const std::filesystem::path& path, const Case& what, size_t byte
                    "ITEM: TIMESTEP\n1000\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS pp pp ff\n0 1\n0 1\n0 1\nITEM: "
                    "ATOMS id type x y z {}radius\n",
                    count, what.wide ? "vx vy vz fx fy fz " : "");
-    const std::string mode = what.packed ? "wb1" : "wbT"; // zlib's "T": as it is
+    const std::string mode = what.packed ? "wb1" : "wbT"; // zlib's "T": not compressed
     gzFile file = gzopen(path.c_str(), mode.c_str());
     if (!file) throw std::runtime_error("cannot write " + path.string());
     for (const uint64_t id : ids) {
@@ -68,7 +68,7 @@ void write_dump(const std::filesystem::path& path, const Case& what, size_t byte
     gzclose(file);
 }
 
-/// Lines and bytes of a file, read as the reader does.
+/// Counts the lines and bytes of a file, which is read through ByteSource as DumpSeries does.
 std::pair<uint64_t, uint64_t> count_lines(const std::filesystem::path& path)
 {
     ByteSource source(path);
@@ -86,7 +86,7 @@ std::pair<uint64_t, uint64_t> count_lines(const std::filesystem::path& path)
     return {lines, bytes};
 }
 
-/// The least processor time of three, in seconds: other programs on the machine do not count.
+/// The least processor time of three runs, in seconds; the time of other programs does not count.
 double time_of(const std::function<void()>& work)
 {
     double best = 1e30;

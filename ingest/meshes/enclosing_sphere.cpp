@@ -17,7 +17,7 @@ std::pair<V3d, double> smallest_enclosing_sphere(const std::vector<V3d>& points)
     CGAL::Min_sphere_of_spheres_d<Traits> sphere(converted.begin(), converted.end());
     const auto* c = sphere.center_cartesian_begin();
     const V3d centre(c[0], c[1], c[2]);
-    // The exact farthest point, so that every point is inside whatever the solver rounded.
+    // The radius reaches the farthest point, so that every point is inside despite the solver's rounding.
     double radius2 = 0;
     for (const V3d& p : points) radius2 = std::max(radius2, (p - centre).length2());
     return {centre, std::sqrt(radius2)};

@@ -51,7 +51,7 @@ std::string content_of(const std::filesystem::path& path)
     return content;
 }
 
-/// Refuses what is text in another coding than ASCII or UTF-8; passes over a byte order mark.
+/// Throws on text in UTF-16; skips a byte order mark of UTF-8.
 std::string_view without_byte_order_mark(std::string_view content, const std::string& place)
 {
     if (content.starts_with("\xff\xfe") || content.starts_with("\xfe\xff")) {
@@ -66,7 +66,7 @@ std::string place_of_face(const std::string& file, const PolygonSoup& soup, size
     return soup.face_lines.empty() ? file : fmt::format("{}:{}", file, soup.face_lines[face]);
 }
 
-/// The corners of a face without those that repeat the place of the one before.
+/// The corners of a face; of successive corners at the same place only one is kept.
 std::vector<uint32_t> distinct_corners(const PolygonSoup& soup, size_t begin, size_t end)
 {
     const auto same = [&](uint32_t a, uint32_t b) { return soup.positions[a] == soup.positions[b]; };
@@ -97,7 +97,7 @@ TriangleMesh triangulated(PolygonSoup&& soup, const std::string& file)
             throw InputError(place_of_face(file, soup, face),
                              fmt::format("a face of {} corners that crosses or overlaps itself{}", corners.size(),
                                          soup.face_lines.empty() ? fmt::format(" (face {})", face) : ""),
-                             "faces that do not", "export the mesh as triangles");
+                             "faces that do neither", "export the mesh as triangles");
         }
         for (const auto& [a, b, c] : parts) {
             if (has_area(soup.positions[a], soup.positions[b], soup.positions[c])) mesh.triangles.push_back({a, b, c});
@@ -108,7 +108,7 @@ TriangleMesh triangulated(PolygonSoup&& soup, const std::string& file)
     return mesh;
 }
 
-/// The mesh with one vertex at every place, in the order of their first use in `positions`.
+/// The mesh with one vertex per place, in the order in which the places first occur in `positions`.
 TriangleMesh welded(const TriangleMesh& mesh)
 {
     const std::vector<uint32_t> first = first_at_same_position(mesh.positions);
@@ -143,8 +143,8 @@ TriangleMesh read_mesh(const std::filesystem::path& path)
     TriangleMesh mesh = triangulated(std::move(soup), file);
     if (mesh.triangles.empty()) throw InputError(file, "no face with an area", "a mesh with faces");
 
-    // STL has no shared vertices. Other formats do, but exporters part them where normals or textures jump: such
-    // a surface is the closed one that it looks like, while parts that only touch stay as they are.
+    // STL has no shared vertices. Other formats have them, but exporters duplicate vertices where normals or texture
+    // coordinates jump. Such vertices are merged if that closes the surface; parts that only touch stay separate.
     if (format.read == mesh_formats::read_stl) return welded(mesh);
     if (!topology_of(mesh).closed) {
         TriangleMesh joined = welded(mesh);

@@ -7,14 +7,14 @@
 namespace scree {
 
 struct MeshTopology {
-    bool closed = false; ///< every edge has exactly two faces (and there is one)
+    bool closed = false; ///< every edge has exactly two faces (and there is at least one edge)
     bool oriented = false; ///< the faces at an edge agree on which side is out
 };
 
-/// Edge by edge, by the indices of the vertices.
+/// Checks edge by edge; vertices are the same only if their indices are.
 MeshTopology topology_of(const TriangleMesh& mesh);
 
-/// Of the vertices that faces use.
+/// Bounds of the vertices that faces use.
 Imath::Box3d bounds_of(const TriangleMesh& mesh);
 
 } // namespace scree

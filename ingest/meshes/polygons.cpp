@@ -18,22 +18,23 @@ using Imath::V3d;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point2 = Kernel::Point_2;
 
-/// What is known of a triangle of the plane: not yet reached, or whether it lies inside the polygon.
+/// Whether a triangle of the plane lies inside the polygon; unknown: not yet reached.
 enum class Side { unknown, outside, inside };
 
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<uint32_t, Kernel>;
 using FaceBase =
     CGAL::Constrained_triangulation_face_base_2<Kernel, CGAL::Triangulation_face_base_with_info_2<Side, Kernel>>;
-// The tag lets edges touch and coincide, as they do where a polygon is cut open, and throws where they cross.
+// With this tag edges may touch and coincide, as they do where a polygon is cut open; if edges cross, CGAL throws.
 using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
                                                CGAL::No_constraint_intersection_requiring_constructions_tag>;
 using Vertex = Triangulation::Vertex_handle;
 using Face = Triangulation::Face_handle;
-/// How often the polygon runs along an edge; an even number of times means that both sides are alike.
+/// How often the polygon runs along an edge; if even, both sides of the edge are inside or both are outside.
 using EdgeCount = std::map<std::pair<Vertex, Vertex>, int>;
 
-/// Newell's normal, twice the area long; about the first corner, so that small polygons far out keep their digits.
+/// Newell's normal, of length twice the area. Coordinates are relative to the first corner, so that small polygons far
+/// from the origin keep their digits.
 V3d normal_of(const std::vector<V3d>& positions, std::span<const uint32_t> corners)
 {
     const V3d& origin = positions[corners[0]];
@@ -44,7 +45,7 @@ V3d normal_of(const std::vector<V3d>& positions, std::span<const uint32_t> corne
     return sum;
 }
 
-/// The corners along the axis the normal is nearest to, counter-clockwise where the normal points at the viewer.
+/// The corners projected along the axis nearest to the normal, counter-clockwise if the normal points at the viewer.
 std::vector<Point2> flattened(const std::vector<V3d>& positions, std::span<const uint32_t> corners)
 {
     const V3d normal = normal_of(positions, corners);
@@ -59,7 +60,8 @@ std::vector<Point2> flattened(const std::vector<V3d>& positions, std::span<const
     return points;
 }
 
-/// The better diagonal by the angle between the two halves, which also keeps to the inside of a concave one.
+/// Splits along the diagonal for which the normals of the two halves agree better. In a concave quadrilateral this is
+/// the diagonal inside it.
 void split_quadrilateral(const std::vector<V3d>& positions, std::span<const uint32_t> c,
                          std::vector<std::array<uint32_t, 3>>& triangles)
 {
@@ -81,7 +83,7 @@ void split_quadrilateral(const std::vector<V3d>& positions, std::span<const uint
 bool is_strictly_convex(const std::vector<Point2>& p)
 {
     const size_t n = p.size();
-    int turns_back = 0; // how often the boundary changes between going right and going left
+    int turns_back = 0; // how often the boundary changes its direction between right and left
     for (size_t i = 0; i < n; ++i) {
         const Point2 &a = p[i], &b = p[(i + 1) % n], &c = p[(i + 2) % n];
         if (CGAL::orientation(a, b, c) != CGAL::LEFT_TURN) return false;
@@ -90,8 +92,8 @@ bool is_strictly_convex(const std::vector<Point2>& p)
     return turns_back == 2;
 }
 
-/// Walks from the outside in; crossing an edge the polygon runs along an odd number of times changes sides.
-/// False where two ways in disagree.
+/// Marks the triangles from the outside in. The side changes across an edge along which the polygon runs an odd number
+/// of times. Returns false if two paths to a triangle disagree.
 bool mark_sides(Triangulation& plane, const EdgeCount& edges)
 {
     for (const Face face : plane.all_face_handles()) face->info() = Side::unknown;

@@ -9,14 +9,14 @@
 
 namespace scree {
 
-/// Whether the three points span a triangle: exact.
+/// Whether the three points are not on one line; exact.
 bool has_area(const Imath::V3d& a, const Imath::V3d& b, const Imath::V3d& c);
 
-/// Appends triangles (of the same orientation) that fill a polygon of n >= 3 corners with n - 2 triangles.
+/// Fills a polygon of n >= 3 corners with n - 2 triangles of the same orientation, and appends them to `triangles`.
 ///
-/// The polygon may be concave and may touch itself, as one does that is cut open to encode a hole. A quadrilateral need
-/// not be flat; others are filled as seen along the axis their normal is nearest to. False, with nothing appended, for
-/// a polygon that crosses itself.
+/// The polygon may be concave and may touch itself, as a polygon that is cut open to encode a hole does. A
+/// quadrilateral need not be flat; polygons of more corners are projected along the axis nearest to their normal.
+/// Returns false, and appends nothing, if the polygon crosses itself.
 bool triangulate_polygon(const std::vector<Imath::V3d>& positions, std::span<const uint32_t> corners,
                          std::vector<std::array<uint32_t, 3>>& triangles);
 

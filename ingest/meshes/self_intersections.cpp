@@ -20,7 +20,7 @@ using Point = Kernel::Point_3;
 using Box =
     CGAL::Box_intersection_d::Box_with_info_d<double, 3, uint32_t, CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
 
-/// Triangles of exact predicates; vertices at one place count as one, so that seams are no intersections.
+/// Exact tests of the mesh's triangles; vertices at the same place count as one, so that seams are not intersections.
 class ExactTriangles {
 public:
     explicit ExactTriangles(const TriangleMesh& mesh) : mesh_(mesh), first_(first_at_same_position(mesh.positions)) {}
@@ -39,7 +39,7 @@ public:
             for (size_t b = 0; b < 3; ++b) {
                 if (vertex(f, a) != vertex(g, b)) continue;
                 ++shared;
-                // The sum of the shared corners' numbers tells the unshared one when two are shared.
+                // If two corners are shared, 3 minus the sum of their numbers is the number of the third corner.
                 i += a;
                 j += b;
             }
@@ -81,7 +81,7 @@ private:
     std::vector<uint32_t> first_;
 };
 
-/// The sum of what two stretches of pairs hold.
+/// Joins the results of two ranges of pairs.
 SelfIntersections joined(const SelfIntersections& a, const SelfIntersections& b)
 {
     if (a.pairs == 0) return b;
@@ -102,7 +102,7 @@ public:
     void add(uint32_t f, uint32_t g)
     {
         waiting_.emplace_back(std::minmax(f, g));
-        // Hostile meshes have a square of pairs: what waits is bounded.
+        // Hostile meshes have as many pairs as the square of their faces, so the waiting list must be bounded.
         if (waiting_.size() < batch) return;
         test();
         if (found_.pairs >= enough_) throw Enough();
@@ -154,7 +154,7 @@ SelfIntersections find_self_intersections(const TriangleMesh& mesh, uint64_t eno
     for (const Box& box : boxes) pointers.push_back(&box);
 
     PairTester tester(triangles, enough);
-    const std::ptrdiff_t cutoff = 2000; // of CGAL's divide and conquer: its manual's advice for many boxes
+    const std::ptrdiff_t cutoff = 2000; // for CGAL's divide and conquer; CGAL's manual advises it for many boxes
     try {
         CGAL::box_self_intersection_d(
             pointers.begin(), pointers.end(), [&](const Box* a, const Box* b) { tester.add(a->info(), b->info()); },

@@ -9,9 +9,9 @@ namespace scree {
 
 namespace {
 
-/// An edge of a face, without and with its direction.
+/// An edge of a face: its vertices and the direction in which the face runs along it.
 struct DirectedEdge {
-    uint64_t key = 0; ///< lower vertex, then higher
+    uint64_t key = 0; ///< lower vertex in the high 32 bits, higher vertex in the low
     bool forward = false;
 
     bool operator<(const DirectedEdge& other) const { return key < other.key; }
@@ -53,7 +53,7 @@ MeshTopology topology_of(const TriangleMesh& mesh)
         for (; end < edges.size() && edges[end].key == edges[begin].key; ++end) forward += edges[end].forward;
         const auto faces = static_cast<int64_t>(end - begin);
         if (faces != 2) topology.closed = false;
-        // Faces that agree run along their edge in turns: as many forward as backward, but for one at a border.
+        // Of faces that agree, as many run along the edge forward as backward; if their number is odd, one more.
         if (std::abs(2 * forward - faces) > faces % 2) topology.oriented = false;
         begin = end;
     }
@@ -71,7 +71,7 @@ TriangleMesh read_closed_mesh(const std::filesystem::path& path, const std::stri
     TriangleMesh mesh = read_mesh(path);
     if (!is_closed_and_oriented(mesh)) {
         throw InputError(path.string(), "an open or inconsistently oriented mesh", "a closed mesh, " + because,
-                         "scree info says more of it");
+                         "scree info reports the defects");
     }
     if (signed_volume(mesh) < 0) {
         for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);

@@ -18,12 +18,12 @@ struct TriangleMesh {
 /// A box as 12 triangles, faces looking outward.
 TriangleMesh box_mesh(const Imath::V3d& lo, const Imath::V3d& hi);
 
-/// Reads OBJ, PLY, STL or OFF (by extension; text or binary); polygons are triangulated, exact duplicates of
-/// vertices are merged (STL always, other formats where that closes the surface, as at the seams of textures),
-/// faces of no area are dropped. Throws InputError naming the file (text: and the line) and the defect.
+/// Reads OBJ, PLY, STL or OFF (by extension; text or binary). Polygons are triangulated, and faces without area are
+/// dropped. Vertices at exactly the same place are merged: in STL always, in other formats if that closes the surface
+/// (as at texture seams). Throws InputError naming the file (in text files also the line) and the defect.
 TriangleMesh read_mesh(const std::filesystem::path& path);
 
-/// What `scree info` says of a mesh.
+/// What `scree info` reports about a mesh.
 struct MeshReport {
     uint64_t vertices = 0, faces = 0;
     bool closed = false; ///< every edge has exactly two faces
@@ -36,14 +36,14 @@ struct MeshReport {
 /// Whether the surface is closed and consistently oriented (edge by edge; cheap).
 bool is_closed_and_oriented(const TriangleMesh& mesh);
 
-/// The same as read_mesh for a surface that must enclose something: closed, consistently oriented, and turned so that
-/// faces look outward. because: why it must be closed, for the InputError.
+/// Reads a mesh as `read_mesh` does, but requires it to be closed and consistently oriented, and turns its faces
+/// outward. because: why the mesh must be closed, for the InputError.
 TriangleMesh read_closed_mesh(const std::filesystem::path& path, const std::string& because);
 
-/// Signed volume by the divergence theorem, summed about the middle of the bounds.
+/// Signed volume by the divergence theorem, summed relative to the middle of the bounds.
 double signed_volume(const TriangleMesh& mesh);
 
-/// Everything of MeshReport; the self-intersections are found exactly with CGAL.
+/// Computes all of MeshReport; the self-intersections are found exactly, with CGAL.
 MeshReport report_mesh(const TriangleMesh& mesh);
 
 } // namespace scree

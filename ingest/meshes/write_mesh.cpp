@@ -14,7 +14,8 @@ namespace scree {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the binary formats are written as memory has them");
+static_assert(std::endian::native == std::endian::little,
+              "the binary formats are copied from memory, in its byte order");
 
 template <class T>
 void append(std::string& out, const T& value)

@@ -4,12 +4,12 @@
 
 namespace scree {
 
-/// Writes OBJ, PLY (binary), STL (binary) or OFF, by extension; the file appears whole or not at all. Coordinates keep
-/// all their digits (double) but in STL, which has floats. Throws InputError, for an unknown extension before anything
-/// else.
+/// Writes OBJ, PLY (binary), STL (binary) or OFF, by extension; the file is written completely or not at all.
+/// Coordinates keep all their digits (double), except in STL, which stores floats. Throws InputError; an unknown
+/// extension is checked first.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 
-/// Throws InputError when `write_mesh` knows no format of this extension.
+/// Throws InputError when `write_mesh` knows no format for this extension.
 void check_mesh_extension(const std::filesystem::path& path);
 
 } // namespace scree

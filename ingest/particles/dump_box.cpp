@@ -12,7 +12,7 @@ namespace {
 
 enum class BoxKind { orthogonal, restricted, general };
 
-/// The periodicity that words like `pp ff fs` tell.
+/// Which axes are periodic, from boundary words like `pp ff fs`.
 std::array<bool, 3> parse_boundaries(const std::vector<std::string>& words, size_t first, const std::string& place)
 {
     std::array<bool, 3> periodic{false, false, false};
@@ -76,7 +76,8 @@ SimulationBox parse_dump_box(const std::vector<std::string>& words, const std::a
             box.lo[static_cast<int>(i)] = row[3];
         }
         if (box.edges[0].dot(box.edges[1].cross(box.edges[2])) <= 0)
-            throw InputError(at(1), "edge vectors that span no right-handed box", "three edges of a right-handed box");
+            throw InputError(at(1), "edge vectors that do not span a right-handed box",
+                             "three edges of a right-handed box");
         return box;
     }
 

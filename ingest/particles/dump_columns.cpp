@@ -14,7 +14,7 @@ namespace {
 
 constexpr size_t none = static_cast<size_t>(-1);
 
-/// "c_NAME[3]" as {NAME, 3}; a plain name keeps its own and has index 0.
+/// "c_NAME[3]" becomes {NAME, 3}; a plain name stays as it is and has index 0.
 struct ComputedName {
     std::string base;
     int index = 0;
@@ -42,7 +42,7 @@ ComputedName parse_name(const std::string& lower)
     return result;
 }
 
-/// Gives names to columns, the best spelling first.
+/// Finds the column for each use by its name; if several names fit, the best one is taken.
 class Planner {
 public:
     Planner(DumpColumns& columns, const std::string& place) : columns_(columns), place_(place)
@@ -53,7 +53,7 @@ public:
         }
     }
 
-    /// The column of that name; none when there is none.
+    /// The column of that name, or `none`. Throws when two columns have the name.
     size_t find(std::string_view name) const
     {
         size_t found = none;
@@ -67,7 +67,7 @@ public:
         return found;
     }
 
-    /// The first column c_NAME, f_NAME, v_NAME, ... of that name.
+    /// The first column c_NAME, f_NAME, v_NAME, ... with that NAME, or `none`.
     size_t find_computed(std::string_view name) const
     {
         for (size_t i = 0; i < parsed_.size(); ++i)
@@ -100,7 +100,7 @@ void Planner::coordinates()
     std::string missing;
     for (size_t axis = 0; axis < 3; ++axis) {
         const std::string name(1, static_cast<char>('x' + axis));
-        // A place inside the box before an unwrapped one, a place before a fraction: the first keeps most digits.
+        // Positions come before fractions of the box, because they keep more digits; wrapped ones before unwrapped.
         bool found = false;
         for (const auto& [suffix, scaled] : {std::pair{"", false}, {"u", false}, {"s", true}, {"su", true}}) {
             if (!assign(find(name + suffix), fields[axis])) continue;

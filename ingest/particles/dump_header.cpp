@@ -15,7 +15,7 @@ constexpr std::string_view item_mark = "ITEM:";
 
 const std::vector<std::string> known_items{"TIMESTEP", "NUMBER OF ATOMS", "BOX BOUNDS", "ATOMS", "UNITS", "TIME"};
 
-/// The file ended where the header did not; caught within this file.
+/// Thrown when the file ends inside a header; caught within this source file.
 struct Truncated {
     InputError error;
 };
@@ -34,7 +34,7 @@ private:
     [[noreturn]] void cut(uint64_t line, const std::string& expected) const
     {
         throw Truncated{InputError(
-            place(line), reader_.source().truncated() ? "the end of cut off packed data" : "the end of the file",
+            place(line), reader_.source().truncated() ? "the end of truncated compressed data" : "the end of the file",
             expected, "was the file copied whole, or is it still being written?")};
     }
 
@@ -65,7 +65,7 @@ std::optional<std::string> HeaderReader::next_item()
         if (words.empty()) continue;
         item_line_ = line->number;
         if (words[0] != item_mark) {
-            // Cut in the middle of its first word, and of nothing else's.
+            // The file may be cut inside the word "ITEM:"; other text is an error.
             if (!line->terminated && item_mark.starts_with(text)) cut(item_line_, "ITEM: TIMESTEP");
             if (!started_ && !previous_)
                 throw InputError(place(item_line_), in_quotes(text), "ITEM: TIMESTEP",
@@ -76,7 +76,7 @@ std::optional<std::string> HeaderReader::next_item()
             throw InputError(place(item_line_), in_quotes(text), "the next ITEM: of the frame's header");
         }
         const std::string item = fmt::format("{}", fmt::join(words.begin() + 1, words.end(), " "));
-        // With no atoms to follow, a last line without line end is whole enough.
+        // If no atoms follow, the last line is complete even without a line end.
         const bool last_of_empty = item.starts_with("ATOMS ") && has_count_ && header_.particles == 0;
         if (!line->terminated && !last_of_empty) {
             for (const std::string& known : known_items)
@@ -99,7 +99,7 @@ void HeaderReader::once(bool& seen, const char* item)
     if (seen)
         throw InputError(place(item_line_), fmt::format("ITEM: {} twice in one frame", item),
                          "ITEM: ATOMS between two frames",
-                         "a run that was stopped and went on in the same file leaves half a frame: cut it out");
+                         "a run that was stopped and continued in the same file leaves half a frame: remove it");
     seen = true;
 }
 

@@ -11,7 +11,7 @@
 
 namespace scree {
 
-/// What a dump says of a frame before its atoms.
+/// The header of one frame of a dump: everything before its atoms.
 struct DumpHeader {
     int64_t step = 0;
     std::optional<double> time;
@@ -20,25 +20,26 @@ struct DumpHeader {
     uint64_t particles = 0;
     std::shared_ptr<const DumpColumns> columns;
     uint64_t atoms_line = 0; ///< number of the first line of atoms, from 1
-    uint64_t atoms_offset = 0; ///< where that line begins, in unpacked bytes
+    uint64_t atoms_offset = 0; ///< where that line begins, in uncompressed bytes
 };
 
-/// What `read_dump_header` came upon.
+/// What `read_dump_header` found.
 struct DumpHeaderResult {
-    std::optional<DumpHeader> header; ///< nothing: the file ended
+    std::optional<DumpHeader> header; ///< empty: the file ended
     std::optional<InputError> truncation; ///< the file ended inside the header
 };
 
-/// Reads from "ITEM: TIMESTEP" (or what stands before it) to "ITEM: ATOMS".
+/// Reads from "ITEM: TIMESTEP" (or the items before it) to "ITEM: ATOMS".
 ///
-/// previous: the header before in the same file, or null; LAMMPS writes the units once, and equal columns are shared.
+/// previous: the header of the frame before in the same file, or null. It supplies the units, which LAMMPS writes only
+/// once, and equal columns are shared with it.
 /// Throws InputError at file:line.
 DumpHeaderResult read_dump_header(LineReader& reader, const DumpHeader* previous);
 
-/// The box of an `ITEM: BOX BOUNDS` line and the three lines under it.
+/// Parses the box of an `ITEM: BOX BOUNDS` line and the three lines under it.
 ///
-/// words: what follows BOX BOUNDS: nothing, or boundaries (`pp ff ff`), or `xy xz yz` or `abc origin` before them.
-/// Throws InputError (at `place`:`line`, line being that of words).
+/// words: the words after BOX BOUNDS: optionally `xy xz yz` or `abc origin`, then optionally three boundaries
+/// (`pp ff ff`). line: the line of these words. Throws InputError at `place`:LINE.
 SimulationBox parse_dump_box(const std::vector<std::string>& words, const std::array<std::string, 3>& rows,
                              const std::string& place, uint64_t line);
 

@@ -48,9 +48,9 @@ void Indexer::run()
         if (!found.header->box) note("no ITEM: BOX BOUNDS: there is no box, and nothing is periodic");
         index_.frames.push_back(std::move(*found.header));
     }
-    // A stream may also be cut just between two frames.
+    // Compressed data may also be cut exactly between two frames.
     if (!index_.truncation && reader_.source().truncated())
-        index_.truncation = InputError(place(reader_.line()), "the end of cut off packed data", "a whole file",
+        index_.truncation = InputError(place(reader_.line()), "the end of truncated compressed data", "a whole file",
                                        "copy or write the file again");
 }
 
@@ -59,7 +59,7 @@ void Indexer::note(const std::string& text)
     if (std::ranges::find(index_.notes, text) == index_.notes.end()) index_.notes.push_back(text);
 }
 
-/// Whether all of the frame's lines are there; if the file ends too early, says so in the index.
+/// Passes over the frame's lines of atoms; if the file ends too early, sets index_.truncation and returns false.
 bool Indexer::pass_atoms(const DumpHeader& header)
 {
     uint64_t passed = 0;
@@ -76,8 +76,10 @@ bool Indexer::pass_atoms(const DumpHeader& header)
             if (next && !cut_item)
                 throw InputError(place(next->number),
                                  fmt::format("{} after {} lines of atoms", in_quotes(next->text), passed), expected,
-                                 "a run that was stopped and went on in the same file leaves half a frame: cut it out");
-            const char* end = reader_.source().truncated() ? "the end of cut off packed data" : "the end of the file";
+                                 "a run that was stopped and continued in the same file leaves half a frame: remove "
+                                 "it");
+            const char* end =
+                reader_.source().truncated() ? "the end of truncated compressed data" : "the end of the file";
             index_.truncation = InputError(place(next ? next->number : reader_.line()),
                                            fmt::format("{} after {} lines of atoms", end, passed), expected,
                                            "was the file copied whole, or is it still being written?");
@@ -91,7 +93,7 @@ bool Indexer::pass_atoms(const DumpHeader& header)
     return true;
 }
 
-/// The type names of the frame; they are numbered over all frames, so that a name keeps its number.
+/// Collects the type names of all frames together, so that a name has the same number in every frame.
 void Indexer::collect_names(const DumpHeader& header, const LineBlock& block)
 {
     const auto& fields = header.columns->fields;
@@ -106,12 +108,12 @@ void Indexer::collect_names(const DumpHeader& header, const LineBlock& block)
         index_.type_names.insert(last_name_);
         if (index_.type_names.size() > most_type_names)
             throw InputError(place(block.first_line + i),
-                             fmt::format("more than {} different names of types", most_type_names),
-                             "the names of a few types in column " + in_quotes(header.columns->names[column]));
+                             fmt::format("more than {} different type names", most_type_names),
+                             "a few different type names in column " + in_quotes(header.columns->names[column]));
     }
 }
 
-/// The file's last line has no line end: is it one of atoms with all of its columns?
+/// Whether the file's last line, which has no line end, has all columns; if not, sets index_.truncation.
 bool Indexer::last_line_is_whole(const DumpHeader& header, const LineBlock& block)
 {
     const size_t before = block.text.rfind('\n', block.text.size() - 2);
@@ -119,7 +121,7 @@ bool Indexer::last_line_is_whole(const DumpHeader& header, const LineBlock& bloc
     const size_t words = split_words(block.text.substr(start)).size();
     const uint64_t line = block.first_line + block.lines - 1;
     if (words >= header.columns->names.size() && !reader_.source().truncated()) {
-        note(fmt::format("line {}, the last, has no line end: its last number may be cut", line));
+        note(fmt::format("the last line ({}) has no line end: its last number may be cut off", line));
         return true;
     }
     index_.truncation = InputError(place(line), fmt::format("the end of the file after {} columns", words),

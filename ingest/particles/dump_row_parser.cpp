@@ -14,7 +14,7 @@ namespace scree {
 
 namespace {
 
-// Places relative to the middle are used as float; farther out there is nothing to see anyway.
+// Positions relative to the middle are used as float, so they must stay well below 3.4e38.
 constexpr double farthest = 1e37;
 
 bool ends_word(char c) { return static_cast<unsigned char>(c) <= ' '; }
@@ -39,7 +39,7 @@ const char* parse_integer(const char* p, int64_t& value)
     const char* const first = p;
     uint64_t sum = 0;
     for (; *p >= '0' && *p <= '9'; ++p) sum = 10 * sum + static_cast<uint64_t>(*p - '0');
-    // 18 digits fit for certain; more are left to the slow path.
+    // 18 digits always fit; longer numbers take the slow path.
     if (p == first || p - first > 18 || !ends_word(*p)) return nullptr;
     value = negative ? -static_cast<int64_t>(sum) : static_cast<int64_t>(sum);
     return p;
@@ -49,9 +49,9 @@ const char* parse_integer(const char* p, int64_t& value)
 constexpr std::array<double, 23> exact_powers{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                               1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-/// Parses a plain decimal number of up to 15 digits, as nearly all are; null for everything else.
+/// Parses a plain decimal number of up to 15 digits, as nearly all are; returns null for everything else.
 ///
-/// Digits and power of ten are then both exact, so that one division rounds rightly (Clinger 1990).
+/// The digits and the power of ten are then both exact, so that one division rounds correctly (Clinger 1990).
 const char* parse_short_real(const char* p, double& value)
 {
     const bool negative = *p == '-';
@@ -97,7 +97,8 @@ DumpRowParser::DumpRowParser(const DumpHeader& header, const std::vector<std::st
     : header_(header), columns_(*header.columns), type_names_(type_names), file_(std::move(file)), frame_(frame)
 {
     if (!columns_.any_scaled()) return;
-    // Row i of the system: the fraction itself where it is written, else the place that the fractions give.
+    // Row i of the linear system gives the written coordinate i from the three fractions: the fraction itself if the
+    // axis is scaled, otherwise the position relative to the box's lower corner.
     const auto& edges = header.box->edges;
     Imath::M33d system;
     for (int axis = 0; axis < 3; ++axis)
@@ -108,7 +109,7 @@ DumpRowParser::DumpRowParser(const DumpHeader& header, const std::vector<std::st
         to_fractions_ = system.inverse(true);
     } catch (const std::exception&) {
         throw InputError(fmt::format("{}:{}", file_, header.atoms_line - 1),
-                         "coordinates of which some are scaled, in a box that does not tell the others",
+                         "scaled and unscaled coordinates mixed, in a box from which positions cannot be computed",
                          "a box with a volume, and all of xs ys zs or all of x y z");
     }
 }
@@ -241,9 +242,9 @@ void DumpRowParser::parse(const LineBlock& block, uint64_t first_row) const
                          factor == 1 ? "a radius, finite and 0 or more" : "a diameter, finite and 0 or more");
                 break;
             case DumpField::type:
-                integer(row.type, "the number of a type, an integer");
+                integer(row.type, "a type number, an integer");
                 if (row.type < std::numeric_limits<int32_t>::min() || row.type > std::numeric_limits<int32_t>::max())
-                    fail(line, column, text(), "the number of a type, an integer of 32 bits");
+                    fail(line, column, text(), "a type number, an integer of 32 bits");
                 break;
             case DumpField::id:
                 integer(row.id, "an id, an integer of 0 or more");
@@ -253,7 +254,7 @@ void DumpRowParser::parse(const LineBlock& block, uint64_t first_row) const
                 p = skip_word(p);
                 row.type = type_of_name(text());
                 if (row.type == 0)
-                    fail(line, column, text(), "a name that was there when the file was opened",
+                    fail(line, column, text(), "a type name that was in the file when it was opened",
                          "has the file changed?");
                 break;
             case DumpField::quat_w:

@@ -11,14 +11,14 @@
 
 namespace scree {
 
-/// Turns lines of atoms into the entries of a frame; blocks may be parsed on many threads at once.
+/// Parses lines of atoms into the entries of a frame; several threads may parse blocks at once.
 class DumpRowParser {
 public:
     /// frame: the arrays to fill, already of the right size. All references must outlive the parser.
     DumpRowParser(const DumpHeader& header, const std::vector<std::string>& type_names, std::string file,
                   ParticleFrame& frame);
 
-    /// Parses a block, whose first line is row first_row of the frame. Throws InputError at file:line.
+    /// Parses a block; its first line becomes row first_row of the frame. Throws InputError at file:line.
     void parse(const LineBlock& block, uint64_t first_row) const;
 
 private:
@@ -37,7 +37,9 @@ private:
     const std::vector<std::string>& type_names_;
     std::string file_;
     ParticleFrame& frame_;
-    Imath::M33d to_fractions_; ///< what is written, less the box's corner on axes that are not scaled -> fractions
+    /// Maps the coordinates of the file to fractions of the box. On axes that are not scaled, the box's lower corner
+    /// must be subtracted first.
+    Imath::M33d to_fractions_;
 };
 
 } // namespace scree

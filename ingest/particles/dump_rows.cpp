@@ -18,7 +18,7 @@ namespace scree {
 
 namespace {
 
-/// Parses blocks on all threads; of several defects the first in the file is told, whatever the threads did.
+/// Parses blocks on all threads; of several defects it always reports the first in the file.
 void parse_blocks(const DumpRowParser& parser, const LineBlocks& lines, uint64_t first_row)
 {
     const size_t count = lines.blocks.size();
@@ -39,7 +39,7 @@ void parse_blocks(const DumpRowParser& parser, const LineBlocks& lines, uint64_t
         if (failure) std::rethrow_exception(failure);
 }
 
-/// Sizes an array in large pages: first touches and the scattered reads of sorting cost far less.
+/// Resizes an array and asks for large pages: first accesses and the scattered reads of sorting then cost far less.
 template <class T>
 void resize_large(std::vector<T>& values, uint64_t count)
 {
@@ -64,18 +64,18 @@ void resize(ParticleFrame& frame, const DumpColumns& columns, uint64_t count)
                                  uint64_t row)
 {
     throw InputError(fmt::format("{}:{}", file, header.atoms_line + row),
-                     fmt::format("id {} again, which line {} has already", id, header.atoms_line + first_row),
+                     fmt::format("id {} again: line {} has it already", id, header.atoms_line + first_row),
                      "every id once in a frame",
                      id == 0 ? "ids that are all 0 come from 'atom_modify id no': leave the column out" : "");
 }
 
-/// The row of each rank by id. Throws when an id comes twice.
+/// The rows, sorted by their ids. Throws when an id occurs twice.
 std::vector<uint64_t> order_by_id(const std::vector<uint64_t>& id, const std::string& file, const DumpHeader& header)
 {
     const auto [least, greatest] = std::ranges::minmax_element(id);
     const uint64_t first = *least;
     const uint64_t span = *greatest - first;
-    // Ids of a simulation are nearly always 1..N with few gaps: then each row has its slot, and no sort is needed.
+    // Ids of a simulation are nearly always 1..N with few gaps: then each id gets a slot, and no sort is needed.
     if (span < 4 * id.size()) {
         constexpr uint64_t empty = std::numeric_limits<uint64_t>::max();
         std::vector<uint64_t> slots;
@@ -131,7 +131,7 @@ float checked_radius(double radius, const std::string& what)
     throw InputError(what, fmt::format("{}", radius), "a radius, finite and 0 or more");
 }
 
-/// Radii that the user gave, for a dump that has none.
+/// Sets the radii that the user gave, for a dump without radii.
 void give_radii(ParticleFrame& frame, const std::string& file, const DumpHeader& header,
                 const ParticleReadOptions& options, const std::vector<std::string>& type_names)
 {
@@ -157,7 +157,7 @@ void give_radii(ParticleFrame& frame, const std::string& file, const DumpHeader&
     }
     throw InputError(
         fmt::format("{}:{}", file, header.atoms_line - 1),
-        fmt::format("no column of radii, and grains of type{} {} without one", missing.size() == 1 ? "" : "s", list),
+        fmt::format("no column of radii, and no radius for type{} {}", missing.size() == 1 ? "" : "s", list),
         "a column radius or diameter, or a radius for every type",
         fmt::format("give one for all types: --radius R, or by type: --radius{}",
                     example.empty() ? " TYPE=R ..." : example));

@@ -11,7 +11,7 @@ namespace scree {
 
 /// Parses the atoms of one frame.
 ///
-/// reader: stands at the first of these lines. type_names: the names that count as types 1, 2, ..., sorted.
+/// reader: at the first line of atoms. type_names: the names of types 1, 2, ..., sorted.
 /// Throws InputError at file:line, Cancelled.
 ParticleFrame read_dump_rows(LineReader& reader, const DumpHeader& header, const std::vector<std::string>& type_names,
                              const ParticleReadOptions& options, const Progress& progress);

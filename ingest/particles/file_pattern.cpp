@@ -15,7 +15,7 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Less by name, runs of digits compared as numbers.
+/// The order of names in which runs of digits compare as numbers.
 bool natural_less(const std::string& a, const std::string& b)
 {
     size_t i = 0, j = 0;
@@ -67,7 +67,7 @@ std::optional<NumberField> find_number_field(const std::string& name)
     return std::nullopt;
 }
 
-/// Whether `name` is what printf makes of the pattern for some number.
+/// Whether printf makes `name` from the pattern for some number.
 bool matches(const std::string& name, const std::string& pattern, const NumberField& field)
 {
     const std::string head = pattern.substr(0, field.begin), tail = pattern.substr(field.end);
@@ -121,7 +121,7 @@ std::vector<std::filesystem::path> files_of_pattern(const std::string& pattern)
         is_pattern = true;
         files = glob_matches(pattern);
     }
-    if (!is_pattern) return {pattern}; // opening it tells what is wrong
+    if (!is_pattern) return {pattern}; // the error comes when the file is opened
     if (files.empty())
         throw InputError(pattern, "no file that matches", "at least one file",
                          "patterns are * ? [ab] or %d %04d; quote them from the shell");

@@ -23,12 +23,12 @@ struct SimulationBox {
     double volume() const { return std::abs(edges[0].dot(edges[1].cross(edges[2]))); }
 };
 
-/// One frame of a granular simulation: a structure of arrays, a sphere per entry, in the file's unit of length.
+/// One frame of a granular simulation: a structure of arrays, one entry per sphere, in the file's unit of length.
 ///
-/// Sorted by id when the file has ids; without ids, id is the row (0, 1, ...). Identity (and with it grain type
-/// and rotation) follows the id. All arrays have `size()` entries, but `orientation`, which may be empty.
+/// Sorted by id when the file has ids; without ids, id is the row (0, 1, ...). A sphere's identity (and so its grain
+/// type and rotation) follows its id. All arrays have `size()` entries, except `orientation`, which may be empty.
 struct ParticleFrame {
-    std::vector<Imath::V3d> position; ///< centres, in the file's frame, as double
+    std::vector<Imath::V3d> position; ///< centres, in the file's coordinates, as double
     std::vector<float> radius; ///< >= 0 and finite
     std::vector<int32_t> type; ///< the file's own type number; 1 where the file has none
     std::vector<uint64_t> id;
@@ -36,7 +36,7 @@ struct ParticleFrame {
     bool has_ids = false; ///< whether the ids come from the file
 
     std::optional<SimulationBox> box;
-    std::optional<Imath::Box3d> domain; ///< bounds of the mesh the spheres were packed into, where a fill was listed
+    std::optional<Imath::Box3d> domain; ///< bounds of the filled mesh, if the spheres list a fill
     int64_t step = 0;
     std::optional<double> time;
     std::string units; ///< LAMMPS unit style ("lj", "si", ...), empty when unknown
@@ -50,7 +50,7 @@ struct ParticleFrame {
     Imath::V3f relative_position(size_t i) const { return Imath::V3f(position[i] - origin); }
 };
 
-/// The middle of the bounds of some places, which readers take for a frame's origin; 0 for none.
+/// The middle of the bounding box of the positions, which readers use as a frame's origin; 0 without positions.
 Imath::V3d middle_of_bounds(const std::vector<Imath::V3d>& positions);
 
 } // namespace scree

@@ -32,7 +32,7 @@ double default_voxel(const ParticleFrame& frame)
     }
     const double from_radius = 4 * sum / double(frame.size());
     const double from_extent = 2 * reach / std::cbrt(double(frame.size()));
-    // Voxels are counted in 32 bits, so that a grain far out forces larger ones.
+    // Voxel coordinates have 32 bits, so a grain far out needs larger voxels.
     const double least = reach / double(1 << 29);
     const double size = std::max(from_radius > 0 ? from_radius : from_extent, least);
     return size > 0 ? size : 1;
@@ -76,7 +76,7 @@ points::PointDataGrid::Ptr make_point_grid(const ParticleFrame& frame, const std
     openvdb::initialize();
     for (const uint64_t id : frame.id)
         if (id > static_cast<uint64_t>(std::numeric_limits<int64_t>::max()))
-            throw InputError(place, fmt::format("id {}", id), "ids below 2^63 to write as int64");
+            throw InputError(place, fmt::format("id {}", id), "ids below 2^63, which fit int64");
     const auto transform = openvdb::math::Transform::createLinearTransform(voxel > 0 ? voxel : default_voxel(frame));
     transform->postTranslate(to_vdb(frame.origin));
     std::vector<Vec3d> positions(frame.size());
@@ -93,7 +93,7 @@ points::PointDataGrid::Ptr make_point_grid(const ParticleFrame& frame, const std
     add_attribute(*grid, *index, "type", frame.type);
     if (frame.has_ids) add_attribute(*grid, *index, "id", ids);
     if (!orientations.empty()) add_attribute(*grid, *index, "orient", orientations);
-    // What is the same for all points of a leaf, often radius and type, is then stored once.
+    // An attribute that is the same for all points of a leaf, often radius and type, is then stored once.
     points::compactAttributes(grid->tree());
     add_metadata(*grid, frame);
     return grid;

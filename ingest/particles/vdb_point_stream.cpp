@@ -13,13 +13,13 @@ namespace scree {
 
 namespace {
 
-/// OpenVDB's own writers want all grids at once; the parts of the format are protected members that any archive may
-/// use.
+/// Writes one grid after another: OpenVDB's own writers need all grids at once, but the functions that write the parts
+/// of the format are protected members of Archive.
 class GrowingArchive : public openvdb::io::Archive {
 public:
     Ptr copy() const override { return std::make_shared<GrowingArchive>(*this); }
 
-    /// Returns where the number of grids stands.
+    /// Writes the header with 0 grids; returns where in the file the number of grids is.
     std::streampos begin(std::ostream& out) const
     {
         writeHeader(out, true);

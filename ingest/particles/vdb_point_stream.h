@@ -7,16 +7,17 @@
 
 namespace scree {
 
-/// Writes points to one OpenVDB file as they come: memory does not depend on how many there are.
+/// Writes points to one OpenVDB file batch by batch, so that memory does not depend on the number of points.
 ///
-/// Each batch is a grid: "points", "points_part_1", ... `read_vdb_points` takes them together.
+/// Each batch becomes a grid: "points", "points_part_1", ... `read_vdb_points` reads these grids as one frame.
 class VdbPointStream {
 public:
-    /// voxel: 0 for four mean radii of each batch. Throws InputError when the file cannot be written.
+    /// voxel: width of a voxel; 0 means four mean radii of each batch. Throws InputError when the file cannot be
+    /// written.
     explicit VdbPointStream(const std::filesystem::path& path, double voxel = 0);
     ~VdbPointStream();
 
-    /// As write_vdb_points.
+    /// Writes one batch as a grid; contents and errors as in `write_vdb_points`.
     void add(const ParticleFrame& batch);
     /// Completes the file. Throws InputError.
     void finish();

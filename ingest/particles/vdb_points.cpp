@@ -65,10 +65,11 @@ std::vector<points::PointDataGrid::Ptr> grids_called(openvdb::io::File& file, co
     file.open();
     const std::vector<std::string> names = names_of_points(file);
     if (names.empty())
-        throw InputError(place, "no grid of points", what_is_needed, "density and distance fields are no particles");
+        throw InputError(place, "no grid of points", what_is_needed,
+                         "density and distance fields do not hold particles");
     const std::string& first = wanted.empty() ? names[0] : wanted;
     std::vector<points::PointDataGrid::Ptr> grids;
-    for (const std::string& name : names) { // with those that VdbPointStream added
+    for (const std::string& name : names) { // with the further batches of VdbPointStream
         if (name != first && !name.starts_with(first + "_part_")) continue;
         grids.push_back(openvdb::gridPtrCast<points::PointDataGrid>(file.readGrid(name)));
     }
@@ -87,7 +88,8 @@ void append_leaf(const points::PointDataTree::LeafNodeType& leaf, const points::
         return descriptor.find(name) != points::AttributeSet::INVALID_POS &&
                leaf.constAttributeArray(name).valueType() == type;
     };
-    if (!has("P", "vec3s")) throw InputError(place, "points without P as vec3s", "places of 32-bit floats");
+    if (!has("P", "vec3s"))
+        throw InputError(place, "points without P as vec3s", "positions P of 32-bit floats (vec3s)");
     if (!has("pscale", "float"))
         throw InputError(place, "points without float pscale", "the radius of each point as float pscale");
     const points::AttributeHandle<openvdb::Vec3f> position(leaf.constAttributeArray("P"));
@@ -105,7 +107,7 @@ void append_leaf(const points::PointDataTree::LeafNodeType& leaf, const points::
         const float r = radius.get(*i);
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) || !(r >= 0) || !std::isfinite(r))
             throw InputError(place, fmt::format("a point at ({}, {}, {}) of radius {}", p.x, p.y, p.z, r),
-                             "finite places, and radii of 0 or more");
+                             "finite positions, and radii of 0 or more");
         frame.position.push_back(p);
         frame.radius.push_back(r);
         frame.type.push_back(type ? type->get(*i) : 1);
@@ -129,7 +131,7 @@ void reorder(std::vector<T>& values, const std::vector<size_t>& order)
 void finish(ParticleFrame& frame, const std::string& place)
 {
     if (!frame.orientation.empty() && frame.orientation.size() != frame.size())
-        throw InputError(place, "orientations of some points only", "orient for all points or none");
+        throw InputError(place, "orientations of some points only", "the attribute orient for all points or for none");
     std::vector<size_t> order(frame.size());
     std::iota(order.begin(), order.end(), size_t{0});
     std::ranges::stable_sort(order, {}, [&](size_t i) { return frame.id[i]; });
@@ -147,7 +149,7 @@ void finish(ParticleFrame& frame, const std::string& place)
 
 namespace {
 
-/// Runs `work` on the file and makes what OpenVDB throws an error of ours.
+/// Runs `work` on the file and turns OpenVDB's exceptions into InputError.
 template <class Work>
 auto with_file(const std::filesystem::path& path, const Work& work)
 {

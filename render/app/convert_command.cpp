@@ -52,8 +52,8 @@ void run(ConvertOptions options)
 void add_convert_command(CLI::App& app)
 {
     auto options = std::make_shared<ConvertOptions>();
-    CLI::App* command = app.add_subcommand("convert", "One frame of a dump as .csv or as .vdb points");
-    command->add_option("FILE", options->files, "IN, a dump or a pattern of dumps, and OUT, a .csv or .vdb file")
+    CLI::App* command = app.add_subcommand("convert", "Write one frame of a dump as .csv or as .vdb points");
+    command->add_option("FILE", options->files, "IN: a dump or a pattern of dumps; OUT: a .csv or .vdb file")
         ->required();
     command->add_option("--frame", options->frame, "The frame to convert, from 0")->capture_default_str();
     command->add_option("--radius", options->radii, "Radius where the dump has none: R for all, or TYPE=R ...")

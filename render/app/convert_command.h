@@ -8,7 +8,7 @@ namespace scree {
 
 /// Adds `scree convert IN OUT [--frame N] [--radius R|TYPE=R ...]`: one frame of a dump as .csv or .vdb points.
 ///
-/// The output appears whole or not at all. Throws InputError out of the parse.
+/// The output is written completely or not at all. The command runs inside CLI11's parse, which then throws InputError.
 void add_convert_command(CLI::App& app);
 
 } // namespace scree

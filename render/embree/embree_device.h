@@ -18,7 +18,8 @@ public:
 
     RTCDeviceTy* get() const { return device_; }
     int64_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
-    /// Throws std::runtime_error when Embree has reported an error since the last check; `what` was being done.
+    /// Throws std::runtime_error when Embree has reported an error since the last check. what: the task, as in
+    /// "building an exemplar".
     void check(const char* what) const;
 
 private:
@@ -26,7 +27,7 @@ private:
     std::atomic<int64_t> bytes_{0};
 };
 
-/// Sets this thread to flush subnormal floats to zero, as Embree wants it.
+/// Sets this thread to flush subnormal floats to zero, as Embree recommends.
 void flush_subnormals();
 
 } // namespace scree

@@ -8,7 +8,7 @@
 
 namespace scree {
 
-/// A nearest-hit query of o + t d, 0 <= t <= tfar, that has met nothing yet.
+/// A nearest-hit query along o + t d, 0 <= t <= tfar, without a hit yet.
 inline RTCRayHit make_ray(const V3d& o, const V3d& d, double tfar)
 {
     RTCRayHit ray;

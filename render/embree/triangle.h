@@ -6,7 +6,7 @@
 
 namespace scree {
 
-/// Unit normal of a triangle, counter-clockwise from outside.
+/// Unit outward normal of a triangle; its corners are counter-clockwise seen from outside.
 inline V3d unit_normal(const std::array<V3d, 3>& corners)
 {
     return (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
@@ -14,10 +14,10 @@ inline V3d unit_normal(const std::array<V3d, 3>& corners)
 
 /// Where o + t d meets the plane of a triangle: corners[0] + u (corners[1] - corners[0]) + v (corners[2] - corners[0]).
 struct PlaneHit {
-    double t, u, v; ///< not finite for a ray within the plane
+    double t, u, v; ///< not finite for a ray parallel to the plane
 };
 
-/// In double (Möller and Trumbore 1997).
+/// Intersects the line o + t d with the triangle's plane, in double (Möller and Trumbore 1997).
 inline PlaneHit meet_plane(const std::array<V3d, 3>& corners, const V3d& o, const V3d& d)
 {
     const V3d e1 = corners[1] - corners[0], e2 = corners[2] - corners[0], s = o - corners[0];
@@ -26,8 +26,8 @@ inline PlaneHit meet_plane(const std::array<V3d, 3>& corners, const V3d& o, cons
     return {-s.dot(n) / det, -e2.dot(q) / det, e1.dot(q) / det};
 }
 
-/// Whether o + t d meets the triangle at some t > 0; a ray from its plane does not.
-/// rounding: by how much o may lie off its true place.
+/// Whether o + t d hits the triangle at some t > 0; false if o lies in the triangle's plane, within `rounding`.
+/// rounding: how far o may be from its true place.
 inline bool meets_triangle(const std::array<V3d, 3>& corners, const V3d& o, const V3d& d, double rounding)
 {
     const V3d n = (corners[1] - corners[0]).cross(corners[2] - corners[0]);

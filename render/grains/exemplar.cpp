@@ -9,14 +9,14 @@ namespace scree {
 
 namespace {
 
-/// What a ray inside an exemplar carries to the filter; Embree hands the context back.
+/// What the filter needs to know of the ray; Embree passes the context to the filter.
 struct Query {
     RTCIntersectContext context;
     const Exemplar* exemplar;
     V3d o, d;
     double rounding;
     uint32_t skip;
-    float wanted; // sign of Ng . d that is let through; 0: both
+    float wanted; // sign of Ng . d that is accepted; 0: both
 };
 
 void keep_wanted_faces(const RTCFilterFunctionNArguments* args)
@@ -26,8 +26,8 @@ void keep_wanted_faces(const RTCFilterFunctionNArguments* args)
     const auto* hit = reinterpret_cast<const RTCHit*>(args->hit);
     const float side = hit->Ng_x * ray->dir_x + hit->Ng_y * ray->dir_y + hit->Ng_z * ray->dir_z;
     if (hit->primID == query->skip || side * query->wanted < 0) args->valid[0] = 0;
-    // Within what rounding may have moved the start, a neighbour of `skip` may seem to be entered: double arithmetic
-    // tells. From inside, at an edge, the neighbour is left at once indeed.
+    // Near the start, rounding can make the ray seem to enter a neighbour of `skip`, so double arithmetic decides. Rays
+    // from inside need no test: at an edge they may really leave through the neighbour at once.
     else if (query->wanted <= 0 && query->skip != no_triangle && ray->tfar <= 0x1p-20f &&
              !meets_triangle(query->exemplar->corners(hit->primID), query->o, query->d, query->rounding)) {
         args->valid[0] = 0;
@@ -39,8 +39,8 @@ void keep_wanted_faces(const RTCFilterFunctionNArguments* args)
 Exemplar::Exemplar(const EmbreeDevice& device, const TriangleMesh& mesh, const std::string& place)
 {
     const auto [centre, radius] = smallest_enclosing_sphere(mesh.positions);
-    if (!(radius > 0)) throw InputError(place, "a mesh without extent", "a shape of some size");
-    // A hair inside, so that rounding to float leaves no vertex outside the unit sphere.
+    if (!(radius > 0)) throw InputError(place, "a mesh without extent", "a mesh with a size above 0");
+    // Slightly smaller, so that no vertex is outside the unit sphere after rounding to float.
     const double scale = (1 - 0x1p-22) / radius;
     std::vector<V3f> positions;
     positions.reserve(mesh.positions.size());
@@ -99,7 +99,7 @@ bool Exemplar::intersect(const V3d& o, const V3d& d, double rounding, double tma
     V3d start = o;
     if (skip != no_triangle) {
         // Rounding to float moves a coordinate of size <= 1 by up to 2^-25, and Embree's own subtraction rounds once
-        // more: step off the face by that bound, so that the neighbours of `skip` are seen from the right side.
+        // more. Move the start off the face by that bound, so that it is on the right side of the neighbours of `skip`.
         const V3d n = normal(skip);
         const double bound = 0x1p-23 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
         start += std::copysign(bound, n.dot(d)) * n;

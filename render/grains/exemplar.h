@@ -14,7 +14,8 @@ struct RTCSceneTy;
 
 namespace scree {
 
-/// Which faces a ray may meet: outside a grain those it enters through, inside those it leaves through.
+/// Which faces a ray may hit: from outside a grain those through which it enters, from inside those through which it
+/// leaves.
 enum class Facing : uint8_t { entering, leaving };
 
 inline constexpr uint32_t no_triangle = std::numeric_limits<uint32_t>::max();
@@ -22,12 +23,12 @@ inline constexpr uint32_t no_triangle = std::numeric_limits<uint32_t>::max();
 struct ExemplarHit {
     double t = 0; ///< along the ray, in units of the bounding sphere's radius
     uint32_t triangle = no_triangle;
-    float u = 0, v = 0; ///< barycentric coordinates as Embree has them
+    float u = 0, v = 0; ///< barycentric coordinates, as Embree defines them
 };
 
 /// The shape of a grain type as a triangle mesh inside the unit sphere, with its own BVH; traced in the grain's frame.
 ///
-/// Closed meshes are turned outwards. Open ones (leaves, fibres) show both sides of every face.
+/// Closed meshes are turned outwards. Open meshes (leaves, fibres) have faces that rays hit from both sides.
 class Exemplar {
 public:
     /// Moves and scales the mesh into the unit sphere around the centre of its smallest enclosing sphere.
@@ -37,12 +38,12 @@ public:
     Exemplar(const Exemplar&) = delete;
     Exemplar& operator=(const Exemplar&) = delete;
 
-    /// Nearest face of the wanted facing along o + t d, 0 <= t <= tmax. o lies within the unit sphere (or on it), d is
-    /// unit. `skip` is the face o lies on, if any; rounding: by how much o may lie off it.
+    /// Finds the nearest face of the given facing along o + t d, 0 <= t <= tmax; returns false if there is none. o: in
+    /// or on the unit sphere; d: unit; skip: the face on which o lies, if any; rounding: how far o may lie off it.
     bool intersect(const V3d& o, const V3d& d, double rounding, double tmax, Facing facing, uint32_t skip,
                    ExemplarHit& hit) const;
 
-    /// The point of a hit, from the vertices, in double.
+    /// The point of a hit, computed from the vertices in double.
     V3d point(const ExemplarHit& hit) const;
     /// Unit geometric normal, outwards for a closed mesh.
     V3d normal(uint32_t triangle) const;
@@ -53,7 +54,7 @@ public:
     uint64_t bytes() const;
 
 private:
-    std::vector<std::array<V3f, 3>> corners_; // of each triangle: asked for at random, so beside each other
+    std::vector<std::array<V3f, 3>> corners_; // per triangle, side by side because access is random
     bool closed_ = false;
     RTCSceneTy* scene_ = nullptr;
 };

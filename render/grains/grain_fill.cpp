@@ -4,7 +4,7 @@ namespace scree {
 
 namespace {
 
-/// Apart from its caller because GCC 12 at -O2 takes the conversions of two neighbours to float and back for nothing.
+/// Not inlined, because GCC 12 at -O2 drops the conversions of two neighbouring values to float and back.
 [[gnu::noinline]] float to_float(double x) { return static_cast<float>(x); }
 
 } // namespace

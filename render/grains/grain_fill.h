@@ -9,9 +9,9 @@
 
 namespace scree {
 
-/// The grains of a procedural fill in render coordinates: a GrainStore that lists nothing. A grain is known by its id.
+/// The grains of a procedural fill in render coordinates: computed from their ids, not stored as in a GrainStore.
 ///
-/// Places and radii are what a GrainStore of the same spheres would hold, rounded to float, so that both make the same
+/// Positions and radii are rounded to float, as in a GrainStore of the same spheres, so that both give the same
 /// picture.
 class GrainFill {
 public:
@@ -33,7 +33,7 @@ private:
     std::shared_ptr<const ProceduralFill> fill_;
     std::shared_ptr<const Mixture> mixture_;
     Imath::V3d origin_; // of render coordinates
-    double factor_ = 1; // power of two: render units a scene unit
+    double factor_ = 1; // render units per scene unit, a power of two
     FloatMargin margin_;
     double largest_radius_ = 0;
 };

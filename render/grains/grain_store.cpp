@@ -17,17 +17,18 @@ double power_of_two_from(double x)
 
 FloatMargin::FloatMargin(double extent, double least, double largest)
 {
-    // A ray's start and direction are rounded to float (2^-24), and so is each of some ten steps between them and the
-    // squared distance of the line from the centre; start and centre are within four extents.
+    // A ray's start and direction are rounded to float (2^-24), and so is each of about ten operations that compute the
+    // squared distance of the line from the centre. Start and centre are within four extents.
     const double error = 0x1p-19 * power_of_two_from(extent);
-    // Wider than 2^-9 of a radius would be waste: spheres below 2^-10 of the extent are met less surely at their rim.
+    // Widening by more than 2^-9 of a radius would cost more than it helps. So Embree may miss spheres below 2^-10 of
+    // the extent at their rim.
     constexpr double most = 0x1p14;
     const double needed = std::ceil(error / least * 0x1p24);
     complete = needed <= most;
     ulps = static_cast<uint32_t>(std::min(most, needed));
     const double wider = largest * ulps * 0x1p-23;
-    // The near faces of a sphere and of a wider one are at most this far apart along any line that meets both. As a
-    // power of two it is hardly ever different for a fill and for the list of its spheres.
+    // The near faces of a sphere and of the widened sphere are at most this far apart along any line that hits both.
+    // Rounded to a power of two, it is nearly always the same for a fill and for the list of its spheres.
     step_back = power_of_two_from(std::sqrt(2 * largest * wider + wider * wider) + error);
 }
 

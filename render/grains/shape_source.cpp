@@ -16,7 +16,7 @@ uint64_t hash_file(const std::filesystem::path& path)
     std::vector<char> bytes(none ? 0 : size);
     std::ifstream file(path, std::ios::binary);
     file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (!file || bytes.empty()) read_mesh(path); // knows what to say
+    if (!file || bytes.empty()) read_mesh(path); // throws the right error
     return hash_bytes(bytes.data(), bytes.size(), 1);
 }
 

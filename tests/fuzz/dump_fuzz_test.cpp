@@ -1,4 +1,4 @@
-// Whatever is done to a dump, reading it gives frames or an InputError: never a crash, a hang or another exception.
+// However a dump is damaged, reading it gives frames or an InputError: never a crash, a hang or another exception.
 
 #include "ingest/particles/dump_series.h"
 #include "tests/builders/test_files.h"
@@ -92,7 +92,7 @@ void mutate(std::string& bytes, std::mt19937_64& random)
     }
 }
 
-/// Reads everything; true when it could be read. A frame that is given must keep its promises.
+/// Reads everything; true when it could be read. Checks that each frame keeps the promises of its interface.
 bool read_all(const std::string& file)
 {
     ParticleReadOptions options;
@@ -134,7 +134,7 @@ TEST(DumpFuzz, MutatedDumpsAreReadOrRefused)
         if (seed % 16 == 0) {
             ASSERT_TRUE(read_all(folder.write("a.dump", bytes))) << bytes;
         }
-        // Some are packed first, so that the mutations hit the packing.
+        // Some are compressed first, so that the mutations hit the compressed data.
         if (seed % 5 == 1) bytes = test::gzip(bytes);
         if (seed % 5 == 2) bytes = test::zstd(bytes);
         for (uint64_t i = 0; i <= seed % 4; ++i) mutate(bytes, random);
@@ -144,7 +144,7 @@ TEST(DumpFuzz, MutatedDumpsAreReadOrRefused)
         ++tried;
         if (testing::Test::HasFailure()) FAIL() << bytes;
     }
-    // Both must happen, or the mutations are too tame or too wild.
+    // Some dumps must be read and some refused, or the mutations are too weak or too strong.
     EXPECT_GT(good, tried / 50);
     EXPECT_LT(good, tried);
     RecordProperty("tried", static_cast<int>(tried));

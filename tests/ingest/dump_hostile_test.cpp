@@ -25,7 +25,7 @@ const std::vector<std::string> good{
     "3 1 7 8 9 0.5", // 12
 };
 
-/// The good dump with line `number` (from 1) replaced, removed, or with one more before it.
+/// The good dump with line `number` (from 1) replaced (with), removed (without), or with one more line before it.
 std::string with(size_t number, const std::string& text)
 {
     auto lines = good;
@@ -120,7 +120,7 @@ std::vector<Hostile> hostile_dumps()
         {"general_box_left_handed",
          test::replace_all(whole, "BOX BOUNDS pp pp ff\n0 10\n0 10\n0 10\n",
                            "BOX BOUNDS abc origin pp pp pp\n0 1 0 0\n1 0 0 0\n0 0 1 0\n"),
-         6, "no right-handed box", "right-handed"},
+         6, "do not span a right-handed box", "right-handed"},
         {"scaled_without_box", test::join_lines({good[0], good[1], good[2], "0", "ITEM: ATOMS xs ys zs"}), 5,
          "without ITEM: BOX BOUNDS", "the box"},
         {"no_columns", with(9, "ITEM: ATOMS"), 9, "without column names", "ITEM: ATOMS id type x y z radius"},
@@ -149,7 +149,7 @@ std::vector<Hostile> hostile_dumps()
         {"id_negative", with(11, "-2 2 4 5 6 0.25"), 11, "'-2' in column 1 ('id')", "an id"},
         {"id_not_an_integer", with(11, "2.5 2 4 5 6 0.25"), 11, "'2.5' in column 1", "an id"},
         {"id_too_large", with(11, "99999999999999999999 2 4 5 6 0.25"), 11, "in column 1", "an id"},
-        {"id_twice", with(12, "1 1 7 8 9 0.5"), 12, "id 1 again, which line 10 has", "once"},
+        {"id_twice", with(12, "1 1 7 8 9 0.5"), 12, "id 1 again: line 10 has it already", "once"},
         {"id_twice_far_apart", test::replace_all(with(12, "1000000 1 7 8 9 0.5"), "\n1 1", "\n1000000 1"), 12,
          "id 1000000 again", "once"},
         {"type_a_word", with(11, "2 sand 4 5 6 0.25"), 11, "'sand' in column 2 ('type')", "an integer"},

@@ -10,7 +10,7 @@ namespace {
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
-/// A frame of the given box lines (under their own ITEM line), columns and rows.
+/// A dump of one frame with the given box lines (including their ITEM line), columns and rows.
 std::string dump(const std::string& box, const std::string& columns, const std::vector<std::string>& rows,
                  const std::string& before = "", int step = 100)
 {
@@ -103,7 +103,7 @@ TEST_F(DumpReading, PlacesWinOverFractions)
     expect_near(read_unit(dump(cube, "xs ys zs xu yu zu x y z", {"0 0 0 11 11 11 1 2 3"})).position[0], {1, 2, 3});
 }
 
-/// The LAMMPS manual's relation: bounds = cell corner plus the extremes of the tilts.
+/// A tilted box; the LAMMPS manual's relation: bounds = cell corner plus the extremes of the tilts.
 const std::string tilted = "ITEM: BOX BOUNDS xy xz yz pp pp pp\n-1 14 3\n0 9 -2\n0 5 -1\n";
 
 TEST_F(DumpReading, TiltedBoxIsRecoveredFromItsBoundingBox)
@@ -123,7 +123,7 @@ TEST_F(DumpReading, TiltedBoxIsRecoveredFromItsBoundingBox)
 
 TEST_F(DumpReading, MixedCoordinatesInATiltedBox)
 {
-    // The same place written in all ways: fractions (0.5, 0.25, 0.5) are (5.75, 2.5, 2.5).
+    // The same position in all notations: fractions (0.5, 0.25, 0.5) are (5.75, 2.5, 2.5).
     for (const auto& [columns, row] : {std::pair{"x ys zs", "5.75 0.25 0.5"},
                                        {"xs y zs", "0.5 2.5 0.5"},
                                        {"xs ys z", "0.5 0.25 2.5"},
@@ -144,7 +144,7 @@ TEST_F(DumpReading, GeneralTriclinicBox)
     expect_near(frame.box->edges[1], {-3, 0, 0});
     EXPECT_EQ(frame.box->periodic, (std::array<bool, 3>{true, false, true}));
     expect_near(frame.position[0], {10 - 1.5 + 0.5, 20 + 1 + 0.5, 32});
-    // y = 20 + 2 u + w does not depend on v, so that v cannot be told from it.
+    // y = 20 + 2 u + w does not depend on v, so v cannot be computed from it.
     EXPECT_THROW(read_unit(dump(general, "xs y zs", {"0.5 21.5 0.5"})), InputError);
     expect_near(read_unit(dump(general, "x y zs", {"9 21.5 0.5"})).position[0], {9, 21.5, 32});
 }

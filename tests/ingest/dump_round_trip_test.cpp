@@ -1,4 +1,4 @@
-// Random frames written as text come back the same, however the text is laid out, ordered and packed.
+// Random frames written as text read back the same, in any layout, order and compression.
 
 #include "ingest/particles/dump_series.h"
 #include "tests/builders/test_files.h"

@@ -12,7 +12,7 @@ namespace {
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
-/// A frame of `count` spheres; sphere i of step s stands at (s, i, 0).
+/// A frame of `count` spheres; sphere i of step s is at (s, i, 0).
 std::string frame_text(int64_t step, int count)
 {
     std::string text = fmt::format("ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 "
@@ -62,7 +62,7 @@ TEST_P(DumpSeriesPacked, ManyFramesInAnyOrder)
 {
     std::string text;
     for (int i = 0; i < 20; ++i) text += frame_text(100 * i, 3 + i);
-    // The name says nothing; the first bytes tell how a file is packed.
+    // The name says nothing; the first bytes show how a file is compressed.
     const DumpSeries series = DumpSeries::open(folder_.write("run.dump", GetParam().pack(text)));
     ASSERT_EQ(series.frame_count(), 20u);
     for (size_t i = 0; i < 20; ++i) expect_frame(series, i, int64_t(100 * i), 3 + i);
@@ -103,7 +103,7 @@ TEST_P(DumpSeriesPacked, LargeFrameAcrossManyBlocks)
 TEST_P(DumpSeriesPacked, CutInTheLastFrameKeepsTheFramesBefore)
 {
     const std::string first = frame_text(0, 3), second = frame_text(100, 3);
-    // Cut anywhere in the second frame but at its very end, or within its last number.
+    // Cut anywhere in the second frame, except at its very end or within its last number.
     for (size_t keep = 1; keep + 4 < second.size(); keep += 3) {
         SCOPED_TRACE(second.substr(0, keep));
         const DumpSeries series =
@@ -135,7 +135,7 @@ TEST(DumpSeries, CutCompressedStreamKeepsTheFramesBefore)
         const DumpSeries series = DumpSeries::open(folder.write("a.dump", packed.substr(0, packed.size() * 3 / 4)));
         EXPECT_GT(series.frame_count(), 10u);
         EXPECT_LT(series.frame_count(), 50u);
-        EXPECT_THAT(series.warnings(), testing::ElementsAre(HasSubstr("packed data")));
+        EXPECT_THAT(series.warnings(), testing::ElementsAre(HasSubstr("truncated compressed data")));
         expect_frame(series, series.frame_count() - 1, int64_t(series.frame_count()) - 1, 2000);
     }
 }

@@ -38,7 +38,7 @@ struct BruteForce {
     uint64_t pairs = 0;
 };
 
-/// All pairs over all 27 images.
+/// Overlaps by testing all pairs over all 27 images.
 BruteForce brute_force(const ParticleFrame& frame)
 {
     BruteForce result;
@@ -132,7 +132,7 @@ TEST_P(RandomFrames, SizesOverSixDecades)
 {
     ParticleFrame frame = make(600, 10, 1e-6, 1);
     for (size_t i = 0; i < 20; ++i) frame.radius[i * 7] = 0;
-    // Small ones near large ones, or there would be hardly a pair.
+    // Small spheres are put near large ones; otherwise hardly any pair would overlap.
     for (size_t i = 0; i < 200; ++i)
         frame.position[i] = frame.position[i + 200] + Imath::V3d(frame.radius[i + 200] + 0.5 * frame.radius[i], 0, 0);
     expect_as_brute_force(frame);
@@ -166,7 +166,7 @@ TEST_P(RandomFrames, PeriodicTiltedBox)
 
 TEST_P(RandomFrames, SmallPeriodicBoxOfLargeSpheres)
 {
-    // Pairs meet through several images, and spheres meet themselves.
+    // Pairs overlap through several images, and spheres overlap their own images.
     ParticleFrame frame = make(5, 2, 0.5, 1.5);
     frame.box = box_of({0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {true, true, true});
     expect_as_brute_force(frame);
@@ -207,7 +207,7 @@ TEST(FrameStatistics, BedPackRateOfALattice)
         for (int y = 0; y < 21; ++y)
             for (int z = 0; z < 21; ++z) positions.emplace_back(x, y, z);
     const FrameStatistics statistics = measure_frame(frame_of(positions, std::vector<float>(positions.size(), 0.5f)));
-    // From lattice plane to lattice plane: whole cells of a simple cubic packing.
+    // The middle of the bed goes from lattice plane to lattice plane: whole cells of a simple cubic packing.
     EXPECT_NEAR(*statistics.bed_pack_rate, std::numbers::pi / 6, 4 * 0.002);
     EXPECT_EQ(statistics.overlapping_pairs, 0u);
 }

@@ -1,4 +1,4 @@
-// What is said of a file that is no mesh, or a damaged one.
+// The error messages for a file that is not a mesh or is damaged.
 
 #include "tests/ingest/mesh_files.h"
 
@@ -30,9 +30,9 @@ TEST_F(MeshFiles, says_what_is_wrong_with_an_obj)
     EXPECT_EQ(error_of("a.obj", vertices + "f 1 2 99999999999\n"),
               "a.obj:4: found a face with vertex 99999999999, expected 1 to 3, as there are 3 vertices");
     EXPECT_EQ(error_of("a.obj", vertices + "f 1 2 0\n"),
-              "a.obj:4: found a face with vertex 0, expected vertices counted from 1, or from -1 back");
+              "a.obj:4: found a face with vertex 0, expected vertices counted from 1, or backwards from -1");
     EXPECT_EQ(error_of("a.obj", vertices + "f 1 2 -4\n"),
-              "a.obj:4: found a face with vertex -4, expected at most 3 vertices back, as there are no more so far");
+              "a.obj:4: found a face with vertex -4, expected at most 3 vertices back: there are no more so far");
     EXPECT_EQ(error_of("a.obj", vertices + "f 1 2 x 3\n"),
               "a.obj:4: found 'x', expected a whole number, a vertex of a face");
     EXPECT_EQ(error_of("a.obj", "v 0 0\n"), "a.obj:1: found nothing, expected a number, the z of a vertex");
@@ -142,7 +142,7 @@ TEST_F(MeshFiles, survives_every_cut_and_flipped_byte)
             flipped[i] = static_cast<char>(flipped[i] ^ (1 << (i % 8)));
             for (const std::string& damaged : {content.substr(0, i), flipped}) {
                 try {
-                    report_mesh(read(name, damaged)); // whatever is still a mesh may be read
+                    report_mesh(read(name, damaged)); // a damaged file that is still a mesh may be read
                 } catch (const InputError&) {
                 }
             }

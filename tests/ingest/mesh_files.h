@@ -18,7 +18,7 @@ namespace scree::test {
 
 using Imath::V3d;
 
-/// A folder of the test's own, gone at its end.
+/// A folder for the test alone, removed at its end.
 class MeshFiles : public testing::Test {
 protected:
     void SetUp() override
@@ -63,13 +63,13 @@ private:
     std::filesystem::path folder_;
 };
 
-/// A box of 2 x 3 x 4 about a far point, as six quadrilaterals looking outward.
+/// A box of 2 x 3 x 4 far from the origin, as six quadrilaterals that face outward.
 inline const std::vector<V3d> box_corners = {{10, 20, 30}, {12, 20, 30}, {12, 23, 30}, {10, 23, 30},
                                              {10, 20, 34}, {12, 20, 34}, {12, 23, 34}, {10, 23, 34}};
 inline const std::vector<std::array<uint32_t, 4>> box_faces = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4},
                                                                {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
-// It in every format.
+// The same box in every format.
 
 /// corner: how a vertex, counted from 0, is written.
 std::string box_obj(const std::function<std::string(uint32_t)>& corner);

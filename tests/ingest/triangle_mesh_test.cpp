@@ -1,4 +1,4 @@
-// Meshes read from files of every format, and what is told of them.
+// Meshes read from files of every format, and the reports about them.
 
 #include "tests/ingest/mesh_files.h"
 
@@ -33,7 +33,7 @@ TriangleMesh box_mesh()
     return mesh;
 }
 
-/// Twice the area of all triangles, in the direction they look; of a flat polygon its area.
+/// The total area of the triangles.
 double area(const TriangleMesh& mesh)
 {
     double sum = 0;
@@ -103,7 +103,7 @@ TEST_F(MeshFiles, reads_triangle_strips)
 
 TEST_F(MeshFiles, triangulates_concave_polygons_inside_their_outline)
 {
-    // An arrow head, an L and a comb; along each axis and looking either way.
+    // An arrow head, an L and a comb; along each axis and facing either way.
     const std::vector<std::vector<Imath::V2d>> outlines = {
         {{0, 0}, {4, -3}, {0, 5}, {-4, -3}},
         {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}},
@@ -152,7 +152,7 @@ TEST_F(MeshFiles, refuses_a_polygon_that_crosses_itself)
 {
     const std::string star = "v 0 3 0\nv 2 -3 0\nv -3 1 0\nv 3 1 0\nv -2 -3 0\n";
     EXPECT_EQ(error_of("star.obj", star + "f 1 2 3 4 5\n"),
-              "star.obj:6: found a face of 5 corners that crosses or overlaps itself, expected faces that do not "
+              "star.obj:6: found a face of 5 corners that crosses or overlaps itself, expected faces that do neither "
               "(export the mesh as triangles)");
 }
 
@@ -178,7 +178,7 @@ TEST_F(MeshFiles, joins_the_vertices_of_a_seam_only_where_that_closes_the_surfac
     }
     expect_box(read("apart.obj", apart));
 
-    // Two boxes that touch along an edge: as one surface it would not be closed.
+    // Two boxes that touch along an edge: merged into one surface, they would not be closed.
     touching = box_obj([](uint32_t v) { return fmt::format("{}", static_cast<int>(v) - 8); });
     for (const V3d& p : box_corners) touching += fmt::format("v {} {} {}\n", p.x + 2, p.y + 3, p.z);
     for (const auto& [a, b, c, d] : box_faces) touching += fmt::format("f {} {} {} {}\n", a + 9, b + 9, c + 9, d + 9);
@@ -244,7 +244,7 @@ TEST(TriangleMesh, counts_pairs_of_faces_that_meet_elsewhere)
     EXPECT_EQ(count({{0, 1, 2}, {0, 1, 2}}), 1u);
     EXPECT_EQ(count({{0, 1, 2}, {2, 1, 0}}), 1u);
 
-    // Two boxes of which one reaches into the other by its corner: three faces of each cross three of the other.
+    // A corner of one box is inside another box: three faces of each box cross three faces of the other.
     TriangleMesh mesh = box_mesh();
     for (const V3d& corner : box_corners) mesh.positions.push_back(corner + V3d(1.25, 1.5, 2.75));
     for (const auto& [a, b, c] : box_mesh().triangles) mesh.triangles.push_back({a + 8, b + 8, c + 8});
@@ -256,7 +256,7 @@ TEST(TriangleMesh, counts_pairs_of_faces_that_meet_elsewhere)
 
 TEST(TriangleMesh, intersections_are_exact)
 {
-    // The second triangle stands one unit in the last place above the first, then on it, then through it.
+    // The second triangle ends one unit in the last place above the first, then on it, then below it.
     const auto touches = [](double z) {
         TriangleMesh mesh{{{0, 0, 1}, {4, 0, 1}, {0, 4, 1}, {1, 1, z}, {2, 1, 3}, {1, 2, 3}}, {{0, 1, 2}, {3, 4, 5}}};
         return report_mesh(mesh).self_intersections == 1;

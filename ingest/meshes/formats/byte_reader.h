@@ -7,14 +7,14 @@
 
 namespace scree::mesh_formats {
 
-/// Walks through numbers of a known width and byte order; never past the end.
+/// Reads numbers of a known width and byte order one after another, never past the end.
 class ByteReader {
 public:
     ByteReader(std::string_view bytes, std::endian order) : rest_(bytes), swap_(order != std::endian::native) {}
 
     size_t left() const { return rest_.size(); }
 
-    /// Whether it could be read.
+    /// Reads the next number; returns false if too few bytes are left.
     template <typename T>
     bool read(T& value)
     {

@@ -19,19 +19,18 @@ void read_vertex(TextScanner& text, PolygonSoup& soup)
     soup.positions.push_back(vertex);
 }
 
-/// A corner is `v`, `v/t`, `v//n` or `v/t/n`, each counted from 1, or back from the last so far if negative.
+/// A corner is `v`, `v/t`, `v//n` or `v/t/n`. Each counts from 1, or, if negative, back from the last one so far.
 void read_face(TextScanner& text, PolygonSoup& soup)
 {
     const uint64_t line = text.line();
     for (std::string_view word = text.word_in_line(); !word.empty(); word = text.word_in_line()) {
         const int64_t index = text.integer(word.substr(0, word.find('/')), "a vertex of a face");
         if (index == 0)
-            throw InputError(text.place(), "a face with vertex 0", "vertices counted from 1, or from -1 back");
+            throw InputError(text.place(), "a face with vertex 0", "vertices counted from 1, or backwards from -1");
         const int64_t from_zero = index > 0 ? index - 1 : static_cast<int64_t>(soup.positions.size()) + index;
         if (from_zero < 0) {
-            throw InputError(
-                text.place(), fmt::format("a face with vertex {}", index),
-                fmt::format("at most {} vertices back, as there are no more so far", soup.positions.size()));
+            throw InputError(text.place(), fmt::format("a face with vertex {}", index),
+                             fmt::format("at most {} vertices back: there are no more so far", soup.positions.size()));
         }
         soup.corners.push_back(checked_index(from_zero, soup, text.place()));
     }

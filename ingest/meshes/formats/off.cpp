@@ -15,7 +15,7 @@ struct Header {
     uint32_t extra_numbers = 0; ///< after the coordinates of a vertex: normal, colour, texture
 };
 
-/// Takes the letters before "OFF" apart; throws on a word that is no OFF header.
+/// Reads the letters before "OFF"; throws on a word that is not an OFF header.
 Header parse_keyword(std::string_view word, const TextScanner& text)
 {
     const std::string whole(word);
@@ -28,7 +28,8 @@ Header parse_keyword(std::string_view word, const TextScanner& text)
     const bool texture = eat("ST"), colour = eat("C"), normal = eat("N");
     header.homogeneous = eat("4");
     if (word == "nOFF")
-        throw InputError(text.place(), quoted(whole), "three dimensions: OFF", "nOFF has any number of them");
+        throw InputError(text.place(), quoted(whole), "OFF, which has three dimensions",
+                         "nOFF has any number of dimensions");
     if (word != "OFF") throw InputError(text.place(), quoted(whole), "'OFF', the first word of an OFF mesh");
     header.extra_numbers = (normal ? 3u : 0u) + (colour ? 4u : 0u) + (texture ? 2u : 0u);
     return header;
@@ -36,10 +37,10 @@ Header parse_keyword(std::string_view word, const TextScanner& text)
 
 Imath::V3d dehomogenised(const Imath::V3d& p, double w)
 {
-    return w == 1 ? p : p / w; // w = 0 gives what check_vertex refuses
+    return w == 1 ? p : p / w; // w = 0 gives infinity or NaN, which check_vertex refuses
 }
 
-/// Refuses counts that the rest of the file cannot hold, before memory is taken for them.
+/// Refuses counts that the rest of the file cannot hold, before memory is allocated for them.
 void check_counts(int64_t vertices, int64_t faces, size_t bytes_left, int64_t bytes_a_vertex, const std::string& place)
 {
     const auto left = static_cast<int64_t>(bytes_left);

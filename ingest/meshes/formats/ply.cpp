@@ -58,7 +58,7 @@ Property parse_property(TextScanner& text)
     if (word == "list") {
         property.count_type = parse_type(text.word_in_line(), text);
         if (*property.count_type >= Number::float32)
-            throw InputError(text.place(), "a list counted by reals", "by whole numbers");
+            throw InputError(text.place(), "a list whose count is a real number", "a count of a whole-number type");
         word = text.word_in_line();
     }
     property.type = parse_type(word, text);
@@ -93,9 +93,9 @@ Header parse_header(TextScanner& text)
         } else if (keyword == "element") {
             Element& element = header.elements.emplace_back();
             element.name = text.word_in_line();
-            element.count = text.integer(text.word_in_line(), "how many there are of an element");
+            element.count = text.integer(text.word_in_line(), "the count of an element");
             if (element.count < 0)
-                throw InputError(text.place(), fmt::format("{} of an element", element.count), "none or more");
+                throw InputError(text.place(), fmt::format("an element with the count {}", element.count), "0 or more");
         } else if (keyword == "property") {
             if (header.elements.empty()) throw InputError(text.place(), "a property", "an element before it");
             header.elements.back().properties.push_back(parse_property(text));
@@ -110,7 +110,7 @@ Header parse_header(TextScanner& text)
     throw InputError(text.place(), "the end of the file", "'end_header'");
 }
 
-/// The numbers after the header, one after the other.
+/// Reads the numbers after the header, one after another.
 class Body {
 public:
     Body(TextScanner& text, const Header& header)
@@ -118,7 +118,7 @@ public:
     {
     }
 
-    /// index: of the element's item, for messages.
+    /// index: number of the item within its element, for messages.
     double real(Number type, const Element& element, int64_t index)
     {
         if (is_text_) return text_.number(next_word(element, index), "a property");
@@ -135,7 +135,7 @@ public:
         return binary<double>(element, index);
     }
 
-    /// A double holds every integer of the format.
+    /// Goes through a double, which holds every integer of the format exactly.
     int64_t whole(Number type, const Element& element, int64_t index)
     {
         if (is_text_) return text_.integer(next_word(element, index), "a count or a vertex");
@@ -179,8 +179,7 @@ void read_property(Body& body, const Property& property, const Element& element,
     values.clear();
     const int64_t count = property.count_type ? body.whole(*property.count_type, element, index) : 1;
     if (count < 0)
-        throw InputError(body.place(), fmt::format("a list of {} in {} {}", count, element.name, index),
-                         "none or more");
+        throw InputError(body.place(), fmt::format("a list of {} in {} {}", count, element.name, index), "0 or more");
     for (int64_t k = 0; k < count; ++k) values.push_back(body.real(property.type, element, index));
 }
 
@@ -220,7 +219,8 @@ bool has_faces(const Element& element)
     return element.name == "face" || element.name == "faces" || element.name == "tristrips";
 }
 
-/// One item of "tristrips": strips ended by -1, in which each triangle turns the other way than the one before.
+/// Appends one item of "tristrips": strips that end with -1. In a strip each triangle turns the other way than the
+/// triangle before it.
 void append_strips(const std::vector<int64_t>& vertices, Body& body, PolygonSoup& soup)
 {
     size_t length = 0;

@@ -18,7 +18,7 @@ PolygonSoup read_binary(std::string_view content, uint32_t triangles, const std:
     PolygonSoup soup;
     soup.positions.reserve(size_t{3} * triangles);
     for (uint32_t i = 0; i < triangles; ++i) {
-        bytes.skip(12); // the normal, which the order of the vertices tells better
+        bytes.skip(12); // the normal; the order of the vertices is more reliable
         for (int k = 0; k < 3; ++k) {
             float x = 0, y = 0, z = 0;
             bytes.read(x);
@@ -94,7 +94,7 @@ PolygonSoup read_stl(std::string_view content, const std::string& file)
     if (has_count) ByteReader(content.substr(header_size - 4), std::endian::little).read(triangles);
     const uint64_t announced = header_size + triangle_size * uint64_t{triangles};
 
-    // Binary files may begin with "solid" too; the size tells them from text, and so does a zero byte.
+    // Binary files may begin with "solid" too; their size or a zero byte distinguishes them from text.
     if (has_count && content.size() == announced) return read_binary(content, triangles, file);
     const size_t text_begin = content.find_first_not_of(" \t\r\n");
     const bool text = text_begin != std::string_view::npos && lower_case(content.substr(text_begin, 5)) == "solid" &&

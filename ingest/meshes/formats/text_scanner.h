@@ -8,7 +8,7 @@
 
 namespace scree::mesh_formats {
 
-/// Walks through the words of a text and knows the line it is on.
+/// Reads a text word by word and counts its lines.
 class TextScanner {
 public:
     struct Syntax {
@@ -34,10 +34,10 @@ public:
     std::string place() const { return file_ + ":" + std::to_string(line_); }
     const std::string& file() const { return file_; }
 
-    /// What has not been walked through.
+    /// The text that is not read yet.
     std::string_view rest() const { return rest_; }
 
-    /// word as a number; throws InputError that says what was wanted ("the x of a vertex").
+    /// Parses word as a number. wanted: what the number is ("the x of a vertex"), for the InputError.
     double number(std::string_view word, const char* wanted) const;
     int64_t integer(std::string_view word, const char* wanted) const;
 
@@ -50,7 +50,7 @@ private:
     uint64_t line_ = 1;
 };
 
-/// A word of a file as it can stand in a message; "nothing" for none.
+/// A word of a file in quotes, for a message; "nothing" for an empty word.
 std::string quoted(std::string_view word);
 
 } // namespace scree::mesh_formats

@@ -13,13 +13,14 @@ TriangleMesh make_bark_curl(const ShapeRequest& request)
     const double full_turns = request["turns"] * random.uniform(0.85, 1.15);
     const double arc = 2 * pi * full_turns * (1 + 0.5 * request["opening"] * full_turns);
 
-    // n_u x n_v cells on either face and the rim between: 4 (n_u n_v + n_u + n_v) triangles, cells about square.
+    // Each side has n_u x n_v cells, and the rim joins the sides: 4 (n_u n_v + n_u + n_v) triangles. Cells are about
+    // square.
     const double quarter = static_cast<double>(request.triangles) / 4;
     const double most_v = std::floor((quarter - 2) / 3); // leaves room for two cells along u
     const auto n_v = static_cast<uint32_t>(
         std::clamp(std::round(std::sqrt(quarter * length / arc) - 0.5), 1.0, std::max(1.0, most_v)));
     const auto n_u = static_cast<uint32_t>(std::max(2.0, std::round((quarter - n_v) / (n_v + 1))));
-    const double turns = std::min(full_turns, n_u / 8.0); // what few cells can bend without cutting through themselves
+    const double turns = std::min(full_turns, n_u / 8.0); // few cells bent further would intersect each other
 
     NoiseOptions waves;
     waves.scale = V3d(0.7);

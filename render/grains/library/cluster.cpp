@@ -12,7 +12,7 @@ namespace {
 struct Granule {
     V3d direction;
     double radius2; ///< square of the sphere's radius
-    double sunk; ///< its middle's depth below the surface
+    double sunk; ///< depth of the sphere's centre below the surface
 };
 
 } // namespace

@@ -32,7 +32,7 @@ V3d face_normal(const Form& form)
     return (form.h * a_star + form.k * b_star + form.l * c_star).normalized();
 }
 
-/// The faces of one individual, each grown more or less than the habit's.
+/// The faces of one crystal, each grown more or less than in the habit.
 std::vector<HalfSpace> grow(ShapeRandom& random, double variation, double elongation)
 {
     std::vector<HalfSpace> faces;
@@ -44,7 +44,7 @@ std::vector<HalfSpace> grow(ShapeRandom& random, double variation, double elonga
     return faces;
 }
 
-/// Cuts corners of the polyhedron off by planes a little inside of them.
+/// Cuts off corners of the polyhedron with planes a little inside the corners.
 void chip(std::vector<HalfSpace>& faces, uint64_t count, double depth, ShapeRandom& random)
 {
     const TriangleMesh solid = convex_polyhedron(faces);
@@ -72,7 +72,7 @@ TriangleMesh make_crystal(const ShapeRequest& request)
     for (size_t i = 0; i < intergrown; ++i) {
         std::vector<HalfSpace> faces = grow(random, request["variation"], request["elongation"]);
         const auto chips = static_cast<uint64_t>(request["chips"]);
-        // A coarse mesh has no room for every face: chips first, then none.
+        // A coarse mesh has no room for every face, so a coarse single crystal gets no chips.
         if (intergrown > 1 || request.triangles >= 200) chip(faces, chips, request["chip_depth"], random);
         if (i > 0) {
             const Imath::M33d rotation = random_rotation(random);
@@ -106,7 +106,7 @@ TriangleMesh make_crystal(const ShapeRequest& request)
         }
         return r * (1 + roughness * noise(r * d));
     };
-    // The faces of a single crystal give the mesh its edges where the solid has them.
+    // The mesh of a single crystal starts from the crystal's faces, so that it has edges where the solid has them.
     if (crystals.size() == 1) {
         TriangleMesh solid = convex_polyhedron(crystals[0]);
         if (solid.triangles.size() <= request.triangles)

@@ -11,18 +11,18 @@ V2d left_of(const V2d& v) { return {-v.y, v.x}; }
 
 /// A branch of an arm, or a twig of a branch.
 struct Limb {
-    double at = 0; ///< where on its parent's middle line, in units of length
+    double at = 0; ///< where it begins: distance along its parent's middle line
     double length = 0; ///< from the parent's middle line to where its tip begins
-    double width = 0; ///< half
-    std::vector<Limb> right, left; ///< in order of `at`; of a mirror-symmetric arm the same
+    double width = 0; ///< half width
+    std::vector<Limb> right, left; ///< in order of `at`; equal for a mirror-symmetric limb
 };
 
-/// Goes around limbs, to their right outwards, to their left back.
+/// Traces the outline around limbs: outwards along their right side, back along their left side.
 class Tracing {
 public:
     explicit Tracing(Dendrite& figure) : figure_(figure) {}
 
-    /// All of a limb but where its flanks begin. base: where its middle line does.
+    /// Traces a limb, without the points where its flanks begin. base: where its middle line begins.
     void trace(const Limb& limb, const V2d& base, const V2d& along)
     {
         const V2d side = left_of(along);
@@ -47,7 +47,8 @@ public:
     }
 
 private:
-    /// A branch at 60 degrees to its parent, with where its flanks leave the parent's. side: 1 left, -1 right.
+    /// Traces a branch at 60 degrees to its parent, with the points where its flanks leave the parent's flank. side: 1
+    /// left, -1 right.
     void trace_branch(const Limb& branch, double parent_width, const V2d& parent_base, const V2d& parent_along,
                       int side)
     {
@@ -62,7 +63,7 @@ private:
     Dendrite& figure_;
 };
 
-/// Middles of `count` limbs between lo and hi, jittered within their shares.
+/// Positions of `count` limbs between lo and hi: each is jittered within an equal share of the range.
 std::vector<double> spread(int count, double lo, double hi, double jitter, ShapeRandom& random)
 {
     std::vector<double> places;
@@ -80,17 +81,18 @@ Dendrite make_dendrite(const DendriteOptions& options, ShapeRandom& random)
     const double plate = std::max(options.plate, 2.5 * options.width);
     const double first = plate + 2.4 * options.width, last = 0.93;
     const double spacing = (last - first) / std::max(1, options.branches);
-    // Of the room between neighbours, across them, a branch and the twigs that reach into it from both sides.
+    // The width, across a branch, for the branch and the twigs on both its sides: a part of the distance of neighbours.
     const double room = 0.7 * spacing * half_sqrt3;
     for (const double at : spread(options.branches, first, last, 0.3, random)) {
-        // Longest in the middle of the arm: at its tip they are young, near the plate in each other's shade.
+        // Branches are longest in the middle of the arm: at its tip they are young, near the plate they shade each
+        // other.
         const double grown = std::min({1.0, 1.9 * (1 - at) + 0.1, at / 0.5});
         Limb branch{at,
                     options.branch_length * grown * random.uniform(0.6, 1),
                     std::min(0.7 * options.width, 0.22 * room),
                     {},
                     {}};
-        // Tips stay within 30 degrees of their arm: the next arm's sector begins there.
+        // Tips stay within 30 degrees of their arm, because the next arm's sector begins there.
         branch.length = std::clamp(branch.length, 1.6 * options.width, 0.8 * at);
         const double twig_width = 0.5 * branch.width;
         const double reach = 0.5 * (room - 2 * branch.width) - twig_width;

@@ -10,11 +10,11 @@ namespace scree {
 /// A six-fold figure in the plane as a simple polygon, with the middle lines of its limbs.
 struct Dendrite {
     std::vector<V2d> outline; ///< counter-clockwise
-    std::vector<std::vector<V2d>>
-        middle_lines; ///< inside of the outline, from where a limb begins to its tip; meet at shared points
+    /// Inside the outline, each from the beginning of a limb to its tip; lines meet at shared points.
+    std::vector<std::vector<V2d>> middle_lines;
 };
 
-/// How an arm is branched; lengths in units of the arm's.
+/// How an arm branches; lengths are in units of the arm's length.
 struct DendriteOptions {
     double plate = 0.22; ///< radius of the hexagon in the middle
     double width = 0.045; ///< half width of an arm
@@ -23,11 +23,12 @@ struct DendriteOptions {
     int twigs = 4; ///< on each side of a branch
 };
 
-/// All six arms alike, as they grow in the same weather; random: where branches stand and how long they are.
+/// Makes a figure of six equal arms, because real arms grow in the same weather. random: gives the positions and
+/// lengths of the branches.
 Dendrite make_dendrite(const DendriteOptions& options, ShapeRandom& random);
 
-/// Triangles of the figure (counter-clockwise, z = 0): its vertices are those of the outline first, then the others of
-/// the middle lines.
+/// Triangulates the figure (counter-clockwise, z = 0). The vertices of the outline come first, then the other vertices
+/// of the middle lines.
 TriangleMesh triangulate(const Dendrite& figure);
 
 } // namespace scree

@@ -23,7 +23,7 @@ struct QueuedEdge {
     }
 };
 
-/// The mesh with its edges; an edge's first face has it as a -> b with a < b.
+/// The mesh with its edges. The forward face of an edge runs along it from the lower to the higher vertex.
 class Splitter {
 public:
     explicit Splitter(TriangleMesh& mesh) : mesh_(mesh)

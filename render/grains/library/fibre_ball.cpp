@@ -8,7 +8,7 @@ namespace {
 /// A fibre's middle line: a walk of smoothly changing direction that is turned back at the ball's rim.
 std::vector<V3d> wind(ShapeRandom& random, size_t points, double length, double curliness)
 {
-    constexpr size_t steps = 400; // of the walk: the same fibre at every tessellation
+    constexpr size_t steps = 400; // of the walk; fixed, so that the fibre is the same at every tessellation
     std::vector<V3d> walk;
     const double rim = 0.97 - 0.35 * random.uniform() * random.uniform(); // a few fibres stand out
     V3d p = 0.85 * rim * random.in_ball(), direction = random.direction(), bend = random.in_ball();
@@ -19,7 +19,7 @@ std::vector<V3d> wind(ShapeRandom& random, size_t points, double length, double 
             (bend + 0.35 * std::sqrt(step * 20) * random.in_ball()).normalized() * std::min(1.0, bend.length() + 0.1);
         V3d turn = curliness * bend;
         const double r = p.length();
-        // Near the rim it bends inwards: a wound ball has its fibres along its surface.
+        // Near the rim the fibre bends inwards, because in a wound ball the fibres run along the surface.
         if (r > 0.8 * rim) turn -= (12 * (r / rim - 0.8) / 0.2) * p / r;
         turn -= direction * turn.dot(direction);
         direction = (direction + step * turn).normalized();
@@ -35,7 +35,7 @@ std::vector<V3d> wind(ShapeRandom& random, size_t points, double length, double 
     return line;
 }
 
-/// A closed tube of `sides` around the line; its frame is carried along without twist.
+/// Adds a closed tube with `sides` sides around the line; its frame is carried along the line without twist.
 void add_tube(const std::vector<V3d>& line, size_t sides, double radius, TriangleMesh& mesh)
 {
     const auto first = static_cast<uint32_t>(mesh.positions.size()), n = static_cast<uint32_t>(sides);
@@ -70,12 +70,13 @@ TriangleMesh make_fibre_ball(const ShapeRequest& request)
 {
     const uint64_t triangles = request.triangles;
     const size_t sides = triangles < 4000 ? 3 : triangles < 150000 ? 4 : 6;
-    // Few triangles: fewer fibres, of twelve pieces each at least where there are enough.
+    // With few triangles there are fewer fibres, so that each fibre has at least twelve pieces if possible.
     const uint64_t least = 2 * sides * 12 + 2 * (sides - 2);
     const uint64_t fibres = std::clamp<uint64_t>(triangles / least, 1, static_cast<uint64_t>(request["fibres"]));
     TriangleMesh mesh;
     for (uint64_t i = 0; i < fibres; ++i) {
-        ShapeRandom random(request.seed, 0x66696200 + i); // a fibre each: more triangles show more of the same ball
+        // One stream per fibre, so that more triangles show more fibres of the same ball.
+        ShapeRandom random(request.seed, 0x66696200 + i);
         const uint64_t share = (i + 1) * triangles / fibres - i * triangles / fibres;
         const uint64_t pieces = std::max<uint64_t>(2, (share - 2 * (sides - 2)) / (2 * sides));
         add_tube(wind(random, pieces + 1, request["length"], request["curliness"]), sides, request["thickness"], mesh);

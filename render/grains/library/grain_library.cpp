@@ -51,11 +51,11 @@ struct CrystalDefaults {
 
 std::vector<ShapeParameter> crystal(const CrystalDefaults& d)
 {
-    return {{"elongation", d.elongation, 0.5, 2, "length along the crystal's b axis over that of the common habit"},
-            {"variation", 0.14, 0, 0.3, "by what part faces grow more or less"},
+    return {{"elongation", d.elongation, 0.5, 2, "length along the crystal's b axis, relative to the common habit"},
+            {"variation", 0.14, 0, 0.3, "largest random change of each face's growth, as a fraction"},
             {"intergrown", d.intergrown, 1, 6, "crystals grown together"},
             {"chips", d.chips, 0, 30, "corners broken off each crystal"},
-            {"chip_depth", 0.12, 0.005, 0.3, "how deep, in radii"},
+            {"chip_depth", 0.12, 0.005, 0.3, "greatest depth of the chips, in radii"},
             {"rounding", d.rounding, 0.002, 0.3, "wear of the edges: 1 / p of the p-norm over the faces"},
             {"roughness", d.roughness, 0, 0.1, "height of bumps, in radii"}};
 }
@@ -66,43 +66,46 @@ struct PebbleDefaults {
 
 std::vector<ShapeParameter> pebble(const PebbleDefaults& d)
 {
-    return {{"middle_axis", d.middle_axis, 0.3, 1, "second axis over the longest"},
-            {"short_axis", d.short_axis, 0.2, 1, "shortest axis over the longest"},
+    return {{"middle_axis", d.middle_axis, 0.3, 1, "second axis divided by the longest"},
+            {"short_axis", d.short_axis, 0.2, 1, "shortest axis divided by the longest"},
             {"facets", d.facets, 0, 60, "planes that cut the ellipsoid"},
-            {"angularity", d.angularity, 0, 0.5, "how deep they cut at most, in radii"},
+            {"angularity", d.angularity, 0, 0.5, "greatest depth of the planes' cuts, in radii"},
             {"breaks", d.breaks, 0, 12, "conchoidal breaks"},
-            {"break_depth", d.break_depth, 0, 0.3, "how deep at most, in radii"},
+            {"break_depth", d.break_depth, 0, 0.3, "greatest depth of the breaks, in radii"},
             {"rounding", d.rounding, 0.005, 0.4, "wear of the edges between planes: 1 / p of the p-norm"},
             {"roughness", d.roughness, 0, 0.3, "height of bumps, in radii"},
-            {"bump_size", d.bump_size, 0.05, 2, "of the largest bumps, in radii"}};
+            {"bump_size", d.bump_size, 0.05, 2, "size of the largest bumps, in radii"}};
 }
 
-const std::vector<ShapeParameter> cluster{{"granules", 170, 0, 400, "starch granules in the skin"},
-                                          {"granule_size", 0.17, 0.03, 0.5, "radius of the largest, in radii"},
-                                          {"lumpiness", 0.42, 0, 0.7, "height of the lump's own bumps, in radii"},
-                                          {"lump_size", 0.6, 0.2, 2, "of those bumps, in radii"},
-                                          {"roughness", 0.02, 0, 0.1, "height of the finest bumps, in radii"}};
+const std::vector<ShapeParameter> cluster{
+    {"granules", 170, 0, 400, "starch granules in the skin"},
+    {"granule_size", 0.17, 0.03, 0.5, "radius of the largest granule, in radii of the lump"},
+    {"lumpiness", 0.42, 0, 0.7, "height of the lump's own bumps, in radii"},
+    {"lump_size", 0.6, 0.2, 2, "size of the lump's own bumps, in radii"},
+    {"roughness", 0.02, 0, 0.1, "height of the finest bumps, in radii"}};
 
 const std::vector<ShapeParameter> snowflake{
-    {"plate", 0.2, 0.1, 0.4, "radius of the hexagon in the middle over the length of an arm"},
-    {"arm_width", 0.035, 0.015, 0.06, "half width of an arm over its length"},
-    {"branch_length", 0.5, 0.1, 0.8, "of the longest branches over that of an arm"},
-    {"branches", 6, 0, 9, "on each side of an arm, if the triangles suffice"},
-    {"twigs", 4, 0, 8, "on each side of a branch, if the triangles suffice"},
-    {"thickness", 0.035, 0.01, 0.2, "of the plate at its rim, over the length of an arm"},
-    {"ridge", 0.8, 0, 3, "how much thicker limbs are along their middle"}};
+    {"plate", 0.2, 0.1, 0.4, "radius of the hexagon in the middle, relative to the length of an arm"},
+    {"arm_width", 0.035, 0.015, 0.06, "half width of an arm, relative to its length"},
+    {"branch_length", 0.5, 0.1, 0.8, "length of the longest branches, relative to an arm"},
+    {"branches", 6, 0, 9, "branches on each side of an arm, if there are enough triangles"},
+    {"twigs", 4, 0, 8, "twigs on each side of a branch, if there are enough triangles"},
+    {"thickness", 0.035, 0.01, 0.2, "thickness of the plate at its rim, relative to the length of an arm"},
+    {"ridge", 0.8, 0, 3, "added thickness of limbs along their middle, as a fraction of `thickness`"}};
 
-const std::vector<ShapeParameter> fibre_ball{{"fibres", 200, 1, 2000, "how many, if the triangles suffice"},
-                                             {"thickness", 0.009, 0.002, 0.1, "radius of a fibre"},
-                                             {"length", 7, 0.5, 30, "of a fibre"},
-                                             {"curliness", 2.5, 0, 10, "curvature of a fibre in the ball's inside"}};
+const std::vector<ShapeParameter> fibre_ball{
+    {"fibres", 200, 1, 2000, "number of fibres, if there are enough triangles"},
+    {"thickness", 0.009, 0.002, 0.1, "radius of a fibre"},
+    {"length", 7, 0.5, 30, "length of a fibre"},
+    {"curliness", 2.5, 0, 10, "curvature of a fibre inside the ball"}};
 
-const std::vector<ShapeParameter> bark_curl{{"length", 3.2, 0.5, 8, "along the axis of the curl, in its inner radii"},
-                                            {"turns", 1.35, 0.1, 2.5, "of the curl"},
-                                            {"opening", 0.42, 0.25, 1.5, "growth of the radius per turn"},
-                                            {"thickness", 0.16, 0.02, 0.2, "of the bark"},
-                                            {"raggedness", 0.3, 0, 0.5, "of torn edges"},
-                                            {"roughness", 0.3, 0, 0.5, "depth of furrows, in thicknesses"}};
+const std::vector<ShapeParameter> bark_curl{
+    {"length", 3.2, 0.5, 8, "length along the axis of the curl, in inner radii of the curl"},
+    {"turns", 1.35, 0.1, 2.5, "turns of the curl"},
+    {"opening", 0.42, 0.25, 1.5, "growth of the radius per turn"},
+    {"thickness", 0.16, 0.02, 0.2, "thickness of the bark, in inner radii of the curl"},
+    {"raggedness", 0.3, 0, 0.5, "raggedness of the torn edges"},
+    {"roughness", 0.3, 0, 0.5, "depth of furrows, in thicknesses"}};
 
 const std::vector<ShapeParameter> no_parameters;
 
@@ -158,10 +161,11 @@ const std::vector<Entry>& entries()
         {{"cinnamon", "a curled piece of cinnamon bark", lambert({0.62f, 0.37f, 0.2f}), 0.5 * mm, 20000, 1},
          make_bark_curl,
          bark_curl},
-        {{"dielectric_sphere", "the sphere itself, of clear glass", dielectric(1.5, 0, Color(0.0f)), 0.5 * mm, 0, 1},
+        {{"dielectric_sphere", "the bounding sphere itself, of clear glass", dielectric(1.5, 0, Color(0.0f)), 0.5 * mm,
+          0, 1},
          make_ball,
          no_parameters},
-        {{"diffuse_sphere", "the sphere itself, diffuse", lambert(Color(0.8f)), 0.5 * mm, 0, 1},
+        {{"diffuse_sphere", "the bounding sphere itself, diffuse", lambert(Color(0.8f)), 0.5 * mm, 0, 1},
          make_ball,
          no_parameters}};
     return all;

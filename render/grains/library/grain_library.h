@@ -18,20 +18,20 @@ struct LibraryGrain {
     Material material; ///< absorption per metre, of the real material
     double typical_radius; ///< of the bounding sphere, metres
     uint64_t default_triangles; ///< 0: the shape is the bounding sphere itself
-    uint32_t version; ///< counts the changes of its generator and defaults: part of what caches are keyed by
+    uint32_t version; ///< counts the changes of its generator and defaults; part of the keys of caches
 };
 
-/// The fourteen grain types of Mueller et al. 2016 by our own generators; shapes, materials and their sources are
-/// listed in render/grains/library/README.md.
+/// The fourteen grain types of Mueller et al. 2016, made by our own generators; render/grains/library/README.md lists
+/// shapes, materials and their sources.
 const std::vector<LibraryGrain>& grain_library();
 
-/// nullptr if there is none of that name.
+/// The library grain of that name, or nullptr.
 const LibraryGrain* find_library_grain(std::string_view name);
 
-/// As find_library_grain, but throws InputError with the nearest name; place: what asked for it.
+/// The library grain of that name; throws InputError that suggests the nearest name. place: what asked for the grain.
 const LibraryGrain& require_library_grain(const std::string& name, const std::string& place);
 
-/// Which individual of a type, and how finely.
+/// Which individual of a type to make, and how finely.
 struct ShapeOptions {
     uint64_t seed = 0;
     uint64_t triangles = 0; ///< 0: the type's default
@@ -40,11 +40,11 @@ struct ShapeOptions {
 
 inline constexpr uint64_t least_shape_triangles = 20, most_shape_triangles = 4'000'000;
 
-/// The mesh of a library grain, scaled into the unit bounding sphere, oriented outwards, of `triangles` faces within 20
-/// % (for a type that is the sphere itself 20,000 if 0).
+/// The mesh of a library grain, scaled into the unit bounding sphere and oriented outwards. It has `triangles` faces
+/// within 20 % (if 0 and the type is the sphere itself, 20,000).
 ///
-/// Dielectrics are closed and do not intersect themselves. Throws InputError naming `place` for an unknown parameter or
-/// a value out of range.
+/// Meshes of dielectrics are closed and do not intersect themselves. Throws InputError naming `place` for an unknown
+/// parameter or a value out of range.
 TriangleMesh make_grain_shape(const LibraryGrain& grain, const ShapeOptions& options, const std::string& place);
 
 /// A parameter of a type's generator.
@@ -55,7 +55,7 @@ struct ShapeParameter {
 };
 const std::vector<ShapeParameter>& shape_parameters(const LibraryGrain& grain);
 
-/// Of a type's version and options, canonical: two shapes of one hash are the same mesh.
+/// Hash of a type's name, version and options, with defaults filled in: shapes of equal hash are the same mesh.
 uint64_t hash_shape(const LibraryGrain& grain, const ShapeOptions& options);
 
 } // namespace scree

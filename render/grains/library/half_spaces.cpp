@@ -40,7 +40,7 @@ std::vector<Corner> corners_of(const std::vector<HalfSpace>& h)
     return corners;
 }
 
-/// The corners of one face in order around it: neighbours share a second plane. Empty when they close no ring.
+/// The corners of one face in order around it: neighbours share a second plane. Empty if they do not close a ring.
 std::vector<uint32_t> ring_of(const std::vector<Corner>& corners, size_t plane)
 {
     std::vector<uint32_t> left, ring;
@@ -68,7 +68,8 @@ std::vector<uint32_t> ring_of(const std::vector<Corner>& corners, size_t plane)
 
 TriangleMesh convex_polyhedron(std::vector<HalfSpace> half_spaces)
 {
-    // Planes moved by a hair each: then no four meet in a point, and what is inside is told by more than rounding.
+    // Each plane is moved very slightly, so that no four meet in a point and rounding does not decide which points are
+    // inside.
     for (size_t i = 0; i < half_spaces.size(); ++i)
         half_spaces[i].distance *= 1 + 0x1p-20 * unit_double(hash_index(i, 1));
     const std::vector<Corner> corners = corners_of(half_spaces);
@@ -76,7 +77,7 @@ TriangleMesh convex_polyhedron(std::vector<HalfSpace> half_spaces)
     for (const Corner& corner : corners) mesh.positions.push_back(corner.place);
     for (size_t plane = 0; plane < half_spaces.size(); ++plane) {
         const std::vector<uint32_t> ring = ring_of(corners, plane);
-        double area = 0; // of the whole ring: a sliver's own sign may be rounding
+        double area = 0; // of the whole ring, as the sign of a sliver's area may be a rounding error
         for (size_t i = 2; i < ring.size(); ++i) {
             const V3d &a = mesh.positions[ring[0]], &b = mesh.positions[ring[i - 1]], &c = mesh.positions[ring[i]];
             area += (b - a).cross(c - a).dot(half_spaces[plane].normal);

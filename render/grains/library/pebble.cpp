@@ -9,7 +9,7 @@ namespace scree {
 
 namespace {
 
-/// Outside of a sphere that lies outside of the grain: a shell-shaped (conchoidal) break.
+/// A shell-shaped (conchoidal) break: a sphere with its centre outside the grain cuts a piece off.
 struct Scoop {
     V3d center;
     double radius;
@@ -22,7 +22,7 @@ struct Scoop {
     }
 };
 
-/// Directions apart from each other: each the best of a few, farthest from those before.
+/// Directions apart from each other: each is, of six random ones, the farthest from the directions before.
 std::vector<V3d> spread_directions(size_t count, ShapeRandom& random)
 {
     std::vector<V3d> directions;
@@ -67,7 +67,8 @@ TriangleMesh make_pebble(const ShapeRequest& request)
     };
     std::vector<Scoop> scoops;
     for (const V3d& n : spread_directions(static_cast<size_t>(request["breaks"]), random)) {
-        // Radius far above depth: no ray touches the shell's rim inside the grain, so that the surface has no step.
+        // The radius is far above the depth, so that no ray touches the sphere's rim inside the grain and the surface
+        // has no step.
         const double radius = random.uniform(1.4, 2.6), depth = request["break_depth"] * random.uniform(0.5, 1);
         scoops.push_back({n * (cut_sphere(n) - depth + radius), radius});
     }

@@ -17,7 +17,7 @@ TriangleMesh icosahedron()
             mesh.positions.insert(mesh.positions.end(), {V3d(0, s, t), V3d(s, t, 0), V3d(t, 0, s)});
     }
     for (V3d& p : mesh.positions) p *= scale;
-    // Faces are the triples of vertices that are an edge apart; edges are 2 before scaling.
+    // Three vertices form a face if each pair is one edge length apart; an edge has length 2 before scaling.
     const double edge2 = 4 * scale * scale;
     const auto near = [&](uint32_t a, uint32_t b) {
         return std::abs((mesh.positions[a] - mesh.positions[b]).length2() - edge2) < 0.1;
@@ -40,7 +40,8 @@ uint64_t splits_to(uint64_t triangles, const TriangleMesh& mesh)
     return triangles > mesh.triangles.size() ? (triangles - mesh.triangles.size()) / 2 : 0;
 }
 
-/// Splitting comes before: it would not end where a bumpy surface makes the new edges longer than the one they halve.
+/// Moves the vertices to the surface. Splitting must come before: on a bumpy surface the new edges may be longer than
+/// the edge that they halve, and splitting would not end.
 TriangleMesh moved_onto(const RadialFunction& radius, TriangleMesh mesh)
 {
     for (V3d& p : mesh.positions) {

@@ -5,7 +5,7 @@
 
 namespace scree {
 
-/// What a generator is asked for: every parameter of its list is there.
+/// The input of a generator; it has a value for every parameter in the generator's list.
 struct ShapeRequest {
     uint64_t seed = 0;
     uint64_t triangles = 0;
@@ -14,10 +14,10 @@ struct ShapeRequest {
     double operator[](const std::string& name) const { return parameters.at(name); }
 };
 
-/// A procedure for a family of shapes, of any size around the origin; oriented outwards.
+/// Makes a shape of one family, of any size around the origin and oriented outwards.
 using ShapeGenerator = TriangleMesh (*)(const ShapeRequest& request);
 
-/// Sucrose crystal, or several grown together: the faces of its habit, corners chipped, edges worn.
+/// A sucrose crystal, or several grown together: the faces of its habit, chipped corners, worn edges.
 TriangleMesh make_crystal(const ShapeRequest& request);
 /// Broken and worn stone: an ellipsoid cut by planes and shallow shells, with rough skin.
 TriangleMesh make_pebble(const ShapeRequest& request);

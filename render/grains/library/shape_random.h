@@ -5,10 +5,10 @@
 
 namespace scree {
 
-/// A stream of random numbers for the making of shapes: SplitMix64 (see mixtures/hash.h), the same on every machine.
+/// A stream of random numbers for making shapes: SplitMix64 (see base/hash.h), the same on every machine.
 class ShapeRandom {
 public:
-    /// stream: which of the several random things of one seed is meant.
+    /// stream: selects one of the several independent streams of a seed.
     ShapeRandom(uint64_t seed, uint64_t stream) : state_(hash_key(seed, stream)) {}
 
     uint64_t next() { return mix64(state_ += 0x9e3779b97f4a7c15ull); }

@@ -10,7 +10,7 @@ namespace {
 
 uint64_t directed(uint32_t a, uint32_t b) { return (static_cast<uint64_t>(a) << 32) | b; }
 
-/// The edges of an oriented mesh that have one face, as the face has them.
+/// The edges of an oriented mesh that have only one face, in the direction of that face.
 std::vector<std::array<uint32_t, 2>> border_of(const TriangleMesh& mesh)
 {
     std::unordered_set<uint64_t> edges;
@@ -31,7 +31,8 @@ uint64_t triangles_of_solid(const TriangleMesh& sheet)
     return 2 * (sheet.triangles.size() + border_of(sheet).size());
 }
 
-/// The sheet and its mirror image below z = 0, and the walls between: a solid, as the sheet lies above everywhere.
+/// The sheet, its mirror image below z = 0 and the walls between them. They make a solid, because the sheet lies above
+/// z = 0 everywhere.
 TriangleMesh solid_of(const TriangleMesh& sheet)
 {
     TriangleMesh solid = sheet;
@@ -45,7 +46,7 @@ TriangleMesh solid_of(const TriangleMesh& sheet)
     return solid;
 }
 
-/// The plain hexagonal plate, of 20 triangles: what a snowflake is without room for arms.
+/// The plain hexagonal plate, 20 triangles as a solid; used if there are not enough triangles for arms.
 TriangleMesh hexagon()
 {
     TriangleMesh mesh;
@@ -65,7 +66,7 @@ TriangleMesh make_snowflake(const ShapeRequest& request)
     options.branch_length = request["branch_length"];
     const int branches = static_cast<int>(request["branches"]), twigs = static_cast<int>(request["twigs"]);
 
-    // The most branched figure that the triangles suffice for.
+    // Take the most branched figure for which there are enough triangles.
     TriangleMesh sheet = hexagon();
     uint64_t outline = 6;
     for (int level = branches + twigs; level >= 0; --level) {
@@ -83,7 +84,8 @@ TriangleMesh make_snowflake(const ShapeRequest& request)
     for (size_t i = 0; i < sheet.positions.size(); ++i)
         sheet.positions[i].z = i < outline ? half : half * (1 + request["ridge"]);
 
-    // Each split adds two triangles to the sheet, or one and a border edge; four to the solid in either case.
+    // Each split adds two triangles to the sheet, or one triangle and one border edge: four to the solid in either
+    // case.
     const uint64_t now = triangles_of_solid(sheet);
     split_longest_edges(sheet, request.triangles > now ? (request.triangles - now) / 4 : 0,
                         [](const V3d& middle) { return middle; });

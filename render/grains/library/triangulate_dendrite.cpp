@@ -70,7 +70,7 @@ TriangleMesh triangulate(const Dendrite& figure)
             if (!face->info())
                 mesh.triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
         }
-        // The order of CGAL's containers follows addresses; that of the vertices does not.
+        // CGAL's containers are ordered by addresses, which vary from run to run; the vertex numbers do not.
         for (auto& t : mesh.triangles) std::ranges::rotate(t, std::ranges::min_element(t));
         std::ranges::sort(mesh.triangles);
         return mesh;

@@ -153,7 +153,7 @@ TEST_F(IngestCommands, ConvertLeavesNothingBehindWhenItFails)
 
 TEST_F(IngestCommands, ConvertToVdbAndBack)
 {
-    // Far from the origin, turned, in a tilted box: all must come back.
+    // Grains far from the origin, with orientations, in a tilted box: all of this must read back.
     const std::string file =
         folder_.write("a.dump", "ITEM: TIME\n0.25\nITEM: TIMESTEP\n9\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS xy xz "
                                 "yz pp ff pp\n9999990 10000020 2\n0 10 0\n0 10 0\n"

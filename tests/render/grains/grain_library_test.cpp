@@ -89,7 +89,7 @@ TEST_P(Shape, FillsTheUnitSphereWithAboutTheTrianglesAskedFor)
             EXPECT_GE(farthest, 1 - 1e-12);
             for (const auto& t : mesh.triangles) {
                 ASSERT_LT(std::max({t[0], t[1], t[2]}), mesh.positions.size());
-                // As the tracer has them, in float: no face of no area.
+                // Rounded to float, as in the tracer, every face must still have an area.
                 const V3f a(mesh.positions[t[0]]), b(mesh.positions[t[1]]), c(mesh.positions[t[2]]);
                 ASSERT_GT((b - a).cross(c - a).length(), 0);
             }
@@ -99,7 +99,7 @@ TEST_P(Shape, FillsTheUnitSphereWithAboutTheTrianglesAskedFor)
 
 TEST_P(Shape, IsClosedOutwardAndDoesNotIntersectItself)
 {
-    const bool may_intersect = GetParam() == "hairball"; // its fibres run through each other, as its documentation says
+    const bool may_intersect = GetParam() == "hairball"; // its fibres run through each other, as documented
     for (const uint64_t triangles : tessellations) {
         for (const uint64_t seed : {0u, 7u}) {
             SCOPED_TRACE(testing::Message() << triangles << " triangles, seed " << seed);
@@ -108,7 +108,7 @@ TEST_P(Shape, IsClosedOutwardAndDoesNotIntersectItself)
             EXPECT_GT(signed_volume(mesh), 0);
             if (may_intersect) continue;
             EXPECT_EQ(find_self_intersections(mesh, 1).pairs, 0u);
-            // Nor as the tracer has it.
+            // The mesh rounded to float, as in the tracer, must not intersect itself either.
             for (V3d& p : mesh.positions) p = V3d(V3f(p));
             EXPECT_EQ(find_self_intersections(mesh, 1).pairs, 0u);
         }
@@ -124,10 +124,10 @@ TEST_P(Shape, IsTheSameEveryTimeAndAnotherForEverySeed)
     EXPECT_NE(hash_shape(grain(), {1, 3000, {}}), hash_shape(grain(), {2, 3000, {}}));
 }
 
-/// A finer mesh is the same individual: volumes come together.
+/// A finer mesh is the same individual, so volumes converge.
 TEST_P(Shape, ConvergesWithItsTessellation)
 {
-    if (GetParam() == "hairball") return; // more triangles are more fibres there
+    if (GetParam() == "hairball") return; // its number of fibres grows with the triangles
     const double finest = signed_volume(shape_of(grain(), 100000)), fine = signed_volume(shape_of(grain(), 25000));
     EXPECT_NEAR(fine / finest, 1, 0.03);
 }
@@ -135,7 +135,7 @@ TEST_P(Shape, ConvergesWithItsTessellation)
 TEST_P(Shape, EveryParameterMakesADifferenceAndItsRangeHolds)
 {
     const LibraryGrain& g = grain();
-    // Enough for every branch and fibre of those that have fewer in a coarse mesh.
+    // Snowflake and hairball have fewer branches and fibres in a coarse mesh; here there are triangles for all of them.
     const uint64_t triangles = GetParam() == "snowflake" || GetParam() == "hairball" ? 60000 : 4000;
     const uint64_t usual = hash_of(shape_of(g, triangles));
     for (const ShapeParameter& p : shape_parameters(g)) {
@@ -192,8 +192,8 @@ TEST(GrainLibrary, DefaultsAreSpelledOutInTheHash)
     EXPECT_EQ(all.size(), grain_library().size());
 }
 
-// Shapes must be the same on every machine, or pictures of one scene from several of them would not fit together.
-// Volumes are held to far more than the last bits, in which the machines' sines and powers may differ.
+// Shapes must be the same on every machine; otherwise pictures of one scene from several machines would not match.
+// The tolerance of volumes only allows for the last bits of sines and powers, which may differ between machines.
 TEST(GrainLibrary, ShapesArePinned)
 {
     const std::map<std::string, double> volumes{{"sugar", 1.613870639036},
@@ -214,7 +214,7 @@ TEST(GrainLibrary, ShapesArePinned)
         const double volume = signed_volume(shape_of(grain, 2000, 5));
         ASSERT_TRUE(volumes.contains(grain.name));
         EXPECT_NEAR(volume, volumes.at(grain.name), 1e-9)
-            << grain.name << ": a change of a generator needs a new version";
+            << grain.name << ": if you change a generator, raise its version";
     }
 }
 
@@ -229,7 +229,7 @@ std::vector<std::string> names_of_dielectrics()
 
 class LibraryFurnace : public testing::TestWithParam<std::string> {};
 
-// A lossless grain in a constant surrounding of radiance 1 is invisible: every path must bring exactly 1.
+// A lossless grain in constant surroundings of radiance 1 is invisible: every path must return exactly 1.
 TEST_P(LibraryFurnace, LosslessGrainsAreWhite)
 {
     const LibraryGrain& grain = *find_library_grain(GetParam());
@@ -237,7 +237,7 @@ TEST_P(LibraryFurnace, LosslessGrainsAreWhite)
     lossless.absorption = Color(0.0f);
     TestScene scene;
     const uint32_t type = scene.add_type(lossless, shape_of(grain, 5000));
-    scene.add_grain(V3d(-0.95, 0, 0), 1, type); // they overlap, as those of simulations do
+    scene.add_grain(V3d(-0.95, 0, 0), 1, type); // the grains overlap, as in simulations
     scene.add_grain(V3d(0.95, 0, 0.2), 0.95, type);
     scene.add_constant_light(1);
     scene.build();
@@ -260,7 +260,7 @@ TEST_P(LibraryFurnace, LosslessGrainsAreWhite)
     }
     EXPECT_LT(std::abs(radiance.z(1)), 4) << radiance.mean() << " +- " << radiance.standard_error();
     EXPECT_NEAR(radiance.mean(), 1, 0.001);
-    EXPECT_GT(segments, 3 * paths / 2) << "hardly a path met a grain";
+    EXPECT_GT(segments, 3 * paths / 2) << "hardly any path hit a grain";
     EXPECT_LT(static_cast<double>(leaks), 1e-4 * static_cast<double>(segments));
 }
 
