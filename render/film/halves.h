@@ -73,8 +73,7 @@ struct TileEstimate {
 /// decides the other half's count.
 struct TileState {
     HalfCounts counts;
-    std::array<uint64_t, 2> work{0,
-                                 0}; ///< of all samples of each half, counted or not: rays, and steps that cost alike
+    std::array<uint64_t, 2> work{0, 0}; ///< of all samples of each half, counted or not: rays, and steps as costly
     std::array<TileEstimate, 2> estimates;
 };
 
