@@ -10,8 +10,8 @@ namespace {
 
 const V3d to_viewer(0.6, -6.5, 5.2), to_sun(-0.9, -0.45, 0.75);
 
-/// Turns the mesh so that it lies on the side on which its middle is lowest; what is flat stands so that it mirrors the
-/// sun to the viewer.
+/// Turns the mesh to lie on the side on which its middle is lowest; tilts a flat mesh so that it mirrors the sun to the
+/// viewer.
 void lay_down(TriangleMesh& mesh)
 {
     constexpr int directions = 400;
@@ -34,7 +34,7 @@ void lay_down(TriangleMesh& mesh)
     for (V3d& p : mesh.positions) p = stand.to_world(frame.to_local(p));
 }
 
-/// A sky that is brighter towards the horizon: what is clear shows its shape by it.
+/// A sky that is brighter towards the horizon, so that clear grains show their shape.
 std::shared_ptr<const EnvironmentMap> make_sky()
 {
     constexpr size_t width = 64, height = 32;
@@ -69,7 +69,7 @@ World make_world(const LibraryGrain& grain, const ShapeOptions& shape, const std
     world.grains.widen();
     world.types.push_back(std::move(type));
 
-    constexpr float half = 60; // of the floor: to the horizon, as far as the camera and the grain can tell
+    constexpr float half = 60; // half the floor's width: as good as infinite to the camera and the grain
     const auto z = static_cast<float>(lowest - 0x1p-12);
     Surface floor{
         "floor", {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}}, {{0, 1, 2}, {0, 2, 3}}, {}};
@@ -81,7 +81,7 @@ World make_world(const LibraryGrain& grain, const ShapeOptions& shape, const std
     sun.kind = LightDescription::Kind::distant;
     sun.direction = -to_sun;
     sun.irradiance = Color(2.2f, 2.1f, 1.95f);
-    sun.angle = 32; // through haze, so that what it sends through the grain converges soon
+    sun.angle = 32; // degrees, as through haze, so that sunlight through the grain converges soon
     world.lights = LightSet({make_light(sky, make_sky(), world.space), make_light(sun, nullptr, world.space)}, 2);
     return world;
 }

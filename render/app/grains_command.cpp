@@ -86,9 +86,9 @@ void add_list_command(CLI::App& grains)
     };
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command =
-        grains.add_subcommand("list", "Tell the library's grain types, or the parameters of those named");
-    command->add_option("name", arguments->names, "Grain types whose parameters to tell");
-    command->add_flag("--json", arguments->json, "As JSON, with everything");
+        grains.add_subcommand("list", "List the library's grain types, or the parameters of the named ones");
+    command->add_option("name", arguments->names, "Grain types whose parameters to list");
+    command->add_flag("--json", arguments->json, "Print everything as JSON");
     command->callback([arguments] {
         std::vector<const LibraryGrain*> chosen;
         for (const std::string& name : arguments->names)

@@ -6,7 +6,7 @@ class App;
 
 namespace scree {
 
-/// Adds `scree grains list|export|show`: the library of grain types, their meshes, their pictures.
+/// Adds `scree grains list|export|show|gsdf|stf`: the library of grain types, their meshes, pictures and scattering.
 ///
 /// Outputs appear whole or not at all. Throws InputError out of the parse.
 void add_grains_command(CLI::App& app);

@@ -30,7 +30,7 @@ void export_mesh(Arguments& a)
             equals == std::string::npos ? std::nullopt : to_double(std::string_view(setting).substr(equals + 1));
         if (!value)
             throw InputError("--set", in_quotes(setting), "name=value, e.g. rounding=0.05",
-                             "scree grains list " + a.name + " tells the names");
+                             "scree grains list " + a.name + " lists the names");
         a.shape.parameters[setting.substr(0, equals)] = *value;
     }
     const TriangleMesh mesh = make_grain_shape(grain, a.shape, "scree grains export");
@@ -48,9 +48,9 @@ void add_grains_export_command(CLI::App& grains)
     CLI::App* command = grains.add_subcommand("export", "Write the mesh of a grain type, scaled into the unit sphere");
     command->add_option("name", a.name, "Grain type")->required();
     command->add_option("-o,--output", a.output, "Mesh to write: .obj, .ply, .stl or .off")->required();
-    command->add_option("--triangles", a.shape.triangles, "About how many (default: the type's)")
+    command->add_option("--triangles", a.shape.triangles, "About how many triangles (default: the type's)")
         ->check(CLI::Range(least_shape_triangles, most_shape_triangles));
-    command->add_option("--seed", a.shape.seed, "Which individual")->check(CLI::NonNegativeNumber);
+    command->add_option("--seed", a.shape.seed, "Seed of the individual shape")->check(CLI::NonNegativeNumber);
     command->add_option("--set", a.settings, "A parameter of the shape, name=value; repeatable")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -53,7 +53,7 @@ void show(const Arguments& a)
         for (const LibraryGrain& grain : grain_library()) grains.push_back(&grain);
     }
     check_preview_format(a.output);
-    AtomicFile(a.output); // can be written, before the work
+    AtomicFile(a.output); // throws before the work if it cannot be written
 
     const int count = static_cast<int>(grains.size());
     const int columns = count <= 3 ? count : static_cast<int>(std::ceil(std::sqrt(1.4 * count)));
@@ -89,12 +89,12 @@ void add_grains_show_command(CLI::App& grains)
     command->add_option("-o,--output", a.output, "Picture to write: .png, .jpg, ...")->required();
     command->add_option("--size", a.portrait.size, "Width and height of each picture, pixels")
         ->check(CLI::Range(16, 4096));
-    command->add_option("--spp", a.portrait.spp, "Samples a pixel")->check(CLI::Range(1u, 1u << 20));
-    command->add_option("--triangles", a.shape.triangles, "Of each shape, about (default: the type's)")
+    command->add_option("--spp", a.portrait.spp, "Samples per pixel")->check(CLI::Range(1u, 1u << 20));
+    command->add_option("--triangles", a.shape.triangles, "About how many triangles per shape (default: the type's)")
         ->check(CLI::Range(least_shape_triangles, most_shape_triangles));
-    command->add_option("--seed", a.shape.seed, "Which individuals")->check(CLI::NonNegativeNumber);
+    command->add_option("--seed", a.shape.seed, "Seed of the individual shapes")->check(CLI::NonNegativeNumber);
     command->add_option("-t,--threads", a.threads, "Threads (default: all cores)")->check(CLI::Range(1, 4096));
-    command->add_flag("-q,--quiet", a.quiet, "No progress");
+    command->add_flag("-q,--quiet", a.quiet, "Show no progress");
     command->callback([arguments] { run_command(arguments->threads, [&] { show(*arguments); }); });
 }
 

@@ -26,7 +26,7 @@ const std::string place = "scree grains gsdf";
 struct Arguments {
     std::vector<std::string> words;
     SubjectOptions subject;
-    GsdfOptions gsdf{.error = 0.03}; // as the renderer at standard accuracy
+    GsdfOptions gsdf{.error = 0.03}; // the renderer's at standard accuracy
     bool again = false;
     TableOutputs out{.figure = {}, .size = "1600x1130", .json = {}};
     uint64_t figure_paths = 12'000'000;
@@ -43,9 +43,9 @@ public:
     {
         const std::vector<GsdfSubject> subjects = gsdf_subjects(a_.words, a_.subject, place);
         if (!a_.out.figure.empty() && subjects.size() > 1)
-            throw InputError("--figure", fmt::format("{} grains", subjects.size()), "one grain a figure");
+            throw InputError("--figure", fmt::format("{} grains", subjects.size()), "one grain per figure");
         check_outputs(a_.out);
-        std::vector<uint64_t> hashes; // of the shapes: a missing file is told before the work as well
+        std::vector<uint64_t> hashes; // of the shapes; reading them first reports a missing file before the work
         for (const GsdfSubject& subject : subjects) hashes.push_back(hash_shape(subject.shape));
 
         const InterruptGuard guard(console_.progress());
@@ -104,23 +104,25 @@ void add_options(CLI::App& command, Arguments& a)
 {
     command
         .add_option("what", a.words,
-                    "Grains of the library, 'all' of them, 'sphere', or mesh files (.obj .ply .stl .off)")
+                    "Library grains, 'all' for all of these, 'sphere', or mesh files (.obj .ply .stl .off)")
         ->required();
     add_subject_options(command, a.subject);
     command
         .add_option("--error", a.gsdf.error,
-                    "Mean relative error wanted of the density of directions (default 0.03; the renderer asks for "
+                    "Wanted mean relative error of the directional density (default 0.03; the renderer asks for "
                     "0.005, 0.01, 0.03, 0.08 at accuracy reference, high, standard, draft)")
         ->check(number_in(1e-4, 1));
-    command.add_flag("--force", a.again, "Trace again what is in the cache");
+    command.add_flag("--force", a.again, "Trace again even if the result is in the cache");
     command.add_option(
         "--figure", a.out.figure,
-        "Picture of the error maps of one grain to write (.png, ...), and a table of what simpler forms miss");
-    command.add_option("--size", a.out.size, "Of that picture, WIDTHxHEIGHT pixels (default 1600x1130)");
-    command.add_option("--figure-paths", a.figure_paths, "Through the grain, to compare with (default 12000000)")
+        "Write a picture (.png, ...) of the error maps of one grain, and print the errors of simpler forms");
+    command.add_option("--size", a.out.size, "Size of that picture, WIDTHxHEIGHT pixels (default 1600x1130)");
+    command
+        .add_option("--figure-paths", a.figure_paths,
+                    "Paths traced through the grain, to compare the GSDF with (default 12000000)")
         ->check(CLI::Range(uint64_t{10'000}, uint64_t{1} << 36));
     command.add_option("--json", a.out.json,
-                       "File to write everything to in numbers; - for standard output, without the table");
+                       "Write all numbers to this file as JSON; - for standard output, without the table");
     add_run_options(command, a.out);
 }
 
@@ -130,7 +132,7 @@ void add_gsdf_command(CLI::App& grains)
 {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command =
-        grains.add_subcommand("gsdf", "Find grains' scattering in the cache or trace it; draw the error maps of one");
+        grains.add_subcommand("gsdf", "Find the scattering (GSDF) of grains in the cache or trace it; draw its errors");
     add_options(*command, *arguments);
     command->callback([arguments] { run_command(arguments->out.threads, [&] { Command(*arguments).run(); }); });
 }

@@ -60,12 +60,12 @@ void check_numbers(const Arguments& a)
         if (!(std::abs(g) <= largest_g))
             throw InputError("--g", fmt::format("{:g}", g),
                              fmt::format("a mean cosine from -{0:g} to {0:g}", largest_g),
-                             "0.75 scatters forwards, 0 to all sides");
+                             "0.75 scatters mostly forwards, 0 equally forwards and backwards");
     }
     if (!(a.radius >= 1 && a.radius <= largest_radius)) {
         throw InputError("--radius", fmt::format("{:g}", a.radius),
                          fmt::format("mean free paths, from 1 to {:g}", largest_radius),
-                         "it is the largest shell; all from 1 on are made");
+                         "this is the largest shell; all shells from radius 1 up to it are made");
     }
     if (!(a.albedo >= 0 && a.albedo <= 1))
         throw InputError("--albedo", fmt::format("{:g}", a.albedo), "a number from 0 to 1", "1 absorbs nothing");
@@ -79,16 +79,16 @@ std::vector<Subject> read_subjects(const Arguments& a)
     }
     const SubjectOptions& o = a.subject;
     if (a.words.empty() && (o.material || o.ior || o.roughness || !o.eta.empty() || !o.k.empty())) {
-        throw InputError("--material, --ior, --roughness, --eta, --k", "no grain", "a grain that it is of",
-                         "name one beside --g, or leave the option out");
+        throw InputError("--material, --ior, --roughness, --eta, --k", "no grain", "a grain to apply it to",
+                         "name a grain beside --g, or leave the option out");
     }
     std::vector<Subject> subjects;
     for (const GsdfSubject& grain : gsdf_subjects(a.words, o, place))
         subjects.push_back({grain.name, grain, 0, hash_shape(grain.shape)});
     for (const double g : a.g) subjects.push_back({fmt::format("g={:g}", g), std::nullopt, g, 0});
     if (!a.out.figure.empty() && subjects.size() > 1)
-        throw InputError("--figure", fmt::format("{} phase functions", subjects.size()), "one a figure",
-                         "ask for each with a file of its own");
+        throw InputError("--figure", fmt::format("{} phase functions", subjects.size()), "one per figure",
+                         "run the command once for each, with a file of its own");
     return subjects;
 }
 
@@ -124,7 +124,7 @@ public:
     }
 
 private:
-    /// Of the grain's GSDF, as a medium of such grains has it.
+    /// The phase function of a medium of such grains, from the grain's GSDF.
     std::shared_ptr<const PhaseTable> phase_table(const Subject& subject, StfReport& report)
     {
         const GsdfSource source{subject.shape_hash, subject.grain->material,
@@ -185,27 +185,30 @@ private:
 void add_options(CLI::App& command, Arguments& a)
 {
     command.add_option("what", a.words,
-                       "Grains whose phase function to take: of the library, 'all' of them, 'sphere', or mesh files "
-                       "(.obj .ply .stl .off)");
-    command.add_option("--g", a.g, "Mean cosine of a phase function of Henyey and Greenstein; may be given again")
+                       "Grains whose phase function to use: library grains, 'all' for all of these, 'sphere', or mesh "
+                       "files (.obj .ply .stl .off)");
+    command.add_option("--g", a.g, "Mean cosine of a Henyey-Greenstein phase function; repeatable")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command.add_option("--radius", a.radius, "Largest shell, in mean free paths, 1 to 1024 (default 256)");
-    command.add_option("--albedo", a.albedo, "To tell the shares of light at, 0 to 1 (default 0.99)");
-    command.add_option("--accuracy", a.accuracy,
-                       "Of GSDFs and shells, as the renderer's: reference, high, standard (default) or draft");
+    command.add_option("--radius", a.radius,
+                       "Radius of the largest shell, in mean free paths, 1 to 1024 (default 256)");
+    command.add_option("--albedo", a.albedo, "Albedo at which to report the shares of light, 0 to 1 (default 0.99)");
+    command.add_option(
+        "--accuracy", a.accuracy,
+        "Accuracy of GSDFs and shells, as in the renderer: reference, high, standard (default) or draft");
     add_subject_options(command, a.subject);
-    command.add_option("--figure", a.out.figure,
-                       "Picture to write (.png, ...) of where light leaves shells to, of one phase function");
-    command.add_option("--size", a.out.size, "Of that picture, WIDTHxHEIGHT pixels (default 1600x1600)");
+    command.add_option(
+        "--figure", a.out.figure,
+        "Write a picture (.png, ...) of the directions in which light leaves shells of one phase function");
+    command.add_option("--size", a.out.size, "Size of that picture, WIDTHxHEIGHT pixels (default 1600x1600)");
     command
         .add_option("--figure-walks", a.figure_walks,
-                    "That scatter twice or more, a shell of the picture (default 2000000)")
+                    "Walks of two or more scatterings, per shell of the picture (default 2000000)")
         ->check(CLI::Range(uint64_t{1000}, uint64_t{1} << 32));
-    command.add_option("--figure-seed", a.figure_seed, "Of their random numbers (default 1)");
+    command.add_option("--figure-seed", a.figure_seed, "Seed of these walks (default 1)");
     command.add_option(
         "--json", a.out.json,
-        "File to write everything to in numbers, with the picture's; - for standard output, without the table");
+        "Write all numbers, also the picture's, to this file as JSON; - for standard output, without the table");
     add_run_options(command, a.out);
 }
 
@@ -215,7 +218,7 @@ void add_stf_command(CLI::App& grains)
 {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = grains.add_subcommand(
-        "stf", "Tell what shells of a grain medium do to light, by shell transport functions; draw where it goes");
+        "stf", "Report how shells of a grain medium scatter light (shell transport functions); draw its directions");
     add_options(*command, *arguments);
     command->callback([arguments] { run_command(arguments->out.threads, [&] { Command(*arguments).run(); }); });
 }

@@ -23,13 +23,15 @@ void add_subject_options(CLI::App& command, SubjectOptions& options)
     command.add_option("--material", options.material,
                        "lambert, dielectric or conductor (default: the library's, or a dielectric of index 1.5)");
     command.add_option("--ior", options.ior, "Refractive index of a dielectric")->check(number_in(0.1, 10));
-    command.add_option("--roughness", options.roughness, "Of a dielectric or conductor, 0 (smooth) to 1")
+    command.add_option("--roughness", options.roughness, "Roughness of a dielectric or conductor, 0 (smooth) to 1")
         ->check(number_in(0, 1));
-    command.add_option("--eta", options.eta, "Of a conductor: its index, one number or red,green,blue");
-    command.add_option("--k", options.k, "Of a conductor: the index's imaginary part");
-    command.add_option("--seed", options.seed, "Which individual of the library's grains")
+    command.add_option("--eta", options.eta, "Refractive index of a conductor: one number, or red,green,blue");
+    command.add_option("--k", options.k, "Imaginary part of that index: one number, or red,green,blue");
+    command.add_option("--seed", options.seed, "Seed of the individual shape of library grains")
         ->check(CLI::NonNegativeNumber);
-    command.add_option("--triangles", options.triangles, "Of the library's shapes, about (default: the type's)")
+    command
+        .add_option("--triangles", options.triangles,
+                    "About how many triangles a library shape has (default: the type's)")
         ->check(CLI::Range(least_shape_triangles, most_shape_triangles));
 }
 

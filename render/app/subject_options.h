@@ -9,10 +9,10 @@ class Validator;
 
 namespace scree {
 
-/// Adds the options that decide of what material and shape the grains of a command are.
+/// Adds the options that set the material and the shape of a command's grains.
 void add_subject_options(CLI::App& command, SubjectOptions& options);
 
-/// As CLI::Range, which lets NaN pass.
+/// Like CLI::Range, but also refuses NaN.
 CLI::Validator number_in(double least, double most);
 
 } // namespace scree

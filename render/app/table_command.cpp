@@ -22,7 +22,7 @@ constexpr int interrupted_status = 130;
 void add_run_options(CLI::App& command, TableOutputs& outputs)
 {
     command.add_option("-t,--threads", outputs.threads, "Threads (default: all cores)")->check(CLI::Range(1, 4096));
-    command.add_flag("-q,--quiet", outputs.quiet, "No progress");
+    command.add_flag("-q,--quiet", outputs.quiet, "Show no progress");
 }
 
 void check_outputs(const TableOutputs& outputs)

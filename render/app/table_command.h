@@ -14,7 +14,7 @@ class App;
 
 namespace scree {
 
-// What the commands that print a table of grains, and draw a figure, have in common.
+// Common parts of the commands that print a table of grains and draw a figure.
 
 struct TableOutputs {
     std::string figure, size, json; ///< names of files, or empty; size: WIDTHxHEIGHT of the figure
@@ -27,20 +27,20 @@ struct TableOutputs {
 /// Adds --threads and --quiet.
 void add_run_options(CLI::App& command, TableOutputs& outputs);
 
-/// Throws InputError where a file cannot be written: before the work.
+/// Throws InputError if an output file cannot be written; called before the work.
 void check_outputs(const TableOutputs& outputs);
 
-/// Does the command's work on so many threads; ends the program with status 130 where it was cancelled.
+/// Does the command's work on `threads` threads (0: all cores); ends the program with status 130 if it is cancelled.
 void run_command(int threads, const std::function<void()>& work);
 
-/// To standard output, at once.
+/// Prints to standard output, at once.
 void print_line(const std::string& line);
-/// To the file, or to standard output where it is "-"; nothing where it has no name.
+/// Writes to the file outputs.json, or to standard output if that is "-"; does nothing if it is empty.
 void write_json(const TableOutputs& outputs, const std::function<std::string()>& json);
-/// What progress is of: the name, and which of how many.
+/// The text before progress: the name, and "(i of count)" if there is more than one.
 std::string progress_prefix(const std::string& name, size_t i, size_t count);
 
-/// The bodies of a command's grains, as they are asked for.
+/// Makes the bodies of a command's grains when they are asked for.
 class SubjectBodies {
 public:
     /// place: the command, for messages.

@@ -12,7 +12,7 @@ namespace scree {
 
 namespace {
 
-// Plain numbers without pointers, though Imath's constructors keep them from being trivially copyable.
+// Plain numbers without pointers; only Imath's constructors make them not trivially copyable.
 template <class T>
 inline constexpr bool plain = std::is_standard_layout_v<T>&& std::is_trivially_destructible_v<T>;
 static_assert(plain<Pixel> && plain<PixelHalves> && plain<TileState>);
@@ -23,7 +23,7 @@ void write_all(std::ofstream& out, const std::vector<T>& items)
     out.write(reinterpret_cast<const char*>(items.data()), static_cast<std::streamsize>(items.size() * sizeof(T)));
 }
 
-/// As many as there are in `like`.
+/// Reads as many items as there are in `like`.
 template <class T>
 std::vector<T> read_all(std::ifstream& in, const std::vector<T>& like)
 {
@@ -84,7 +84,7 @@ void read_checkpoint(const std::filesystem::path& path, Film& film, const Checkp
     states.tiles = read_all(in, film.tile_states().tiles);
     for (uint32_t* x : {&states.done, &states.level}) in.read(reinterpret_cast<char*>(x), sizeof *x);
     if (!in)
-        throw InputError(path.string(), "a checkpoint that ends early", "a whole one",
+        throw InputError(path.string(), "a checkpoint that ends early", "a complete one",
                          "remove it, or render without --resume");
     film.pixels() = std::move(pixels);
     film.halves() = std::move(halves);

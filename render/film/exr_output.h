@@ -12,7 +12,7 @@
 
 namespace scree {
 
-/// What an EXR says of how it came to be.
+/// What an EXR says about how it was made.
 struct PictureMetadata {
     std::map<std::string, std::string> texts; ///< EXR string attributes
     std::map<std::string, double> numbers; ///< EXR float attributes
@@ -20,13 +20,15 @@ struct PictureMetadata {
     double depth_scale = 1; ///< from render coordinates to the scene's unit
 };
 
-/// Writes the picture as 32-bit float scan lines: R G B, and per AOV albedo.R .G .B, N.X .Y .Z, Z (0 where nothing was
-/// met), variance.R .G .B (of the pixel's mean), and as 32-bit integers type, id (4294967295 where there is no grain)
-/// and samples. The data window is the rendered part. The file appears whole or not at all. Throws InputError.
+/// Writes the picture as an EXR of scan lines; the file appears whole or not at all. Throws InputError.
+///
+/// Channels of 32-bit floats: R G B, and per AOV albedo.R .G .B, N.X .Y .Z, Z (0 where nothing was hit),
+/// variance.R .G .B (of the pixel's mean). Channels of 32-bit integers: type, id (4294967295 where there is no grain),
+/// samples. The data window is the rendered part.
 void write_exr(const std::filesystem::path& path, const Film& film, const std::vector<Aov>& aov,
                const PictureMetadata& metadata);
 
-/// Writes an 8-bit sRGB picture for looking at (PNG, JPEG, ... by the extension), clipped at white = 1.
+/// Writes an 8-bit sRGB picture for viewing (PNG, JPEG, ... by the extension), clipped at white = 1.
 void write_preview(const std::filesystem::path& path, const Film& film);
 
 /// Throws InputError when write_preview knows no format of this extension.

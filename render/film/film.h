@@ -11,7 +11,7 @@ namespace scree {
 
 inline constexpr uint32_t no_grain = std::numeric_limits<uint32_t>::max(); ///< type and id where there is no grain
 
-/// What a path met first, for the auxiliary pictures.
+/// What a path hit first, for the auxiliary channels.
 struct FirstHit {
     bool hit = false;
     Color albedo{0};
@@ -24,8 +24,8 @@ struct FirstHit {
 /// A pixel's running sums; double, so that 2^20 samples add without loss.
 struct Pixel {
     uint32_t drawn = 0; ///< samples taken
-    uint32_t samples = 0; ///< of them, those that were finite: the others are dropped
-    uint32_t hits = 0; ///< of them, those that met something
+    uint32_t samples = 0; ///< finite ones among the drawn: the others are dropped
+    uint32_t hits = 0; ///< finite samples whose path hit something
     Imath::V3d sum{0}, sum_of_squares{0};
     Color albedo{0};
     V3f normal{0};
@@ -38,7 +38,7 @@ struct Pixel {
     Color variance() const;
 };
 
-/// Rows of pixels of the part of a picture that is rendered.
+/// The pixels of the rendered part of a picture, row by row.
 class Film {
 public:
     /// x0..x1, y0..y1: pixels rendered (x1, y1 excluded) of a width x height picture.
@@ -55,20 +55,20 @@ public:
     std::vector<Pixel>& pixels() { return pixels_; }
     const std::vector<Pixel>& pixels() const { return pixels_; }
 
-    /// Keeps the two halves of the samples besides their sum; before the first sample.
+    /// Also keeps the two halves of the samples, not only their sum; to be called before the first sample.
     void keep_halves();
-    /// As pixels(); empty unless kept.
+    /// In the order of pixels(); empty unless halves are kept.
     std::vector<PixelHalves>& halves() { return halves_; }
     const std::vector<PixelHalves>& halves() const { return halves_; }
     PixelHalves& halves_at(int x, int y) { return halves_[index(x, y)]; }
     const PixelHalves& halves_at(int x, int y) const { return halves_[index(x, y)]; }
-    /// Gives the pixels the values and variances of their halves, in place of those of all samples.
+    /// Replaces the pixels' values and variances, which are of all samples, by those of their halves.
     void take_halves();
 
     static constexpr int tile_size = 16;
     int tile_columns() const { return (x1_ - x0_ + tile_size - 1) / tile_size; }
     int tile_rows() const { return (y1_ - y0_ + tile_size - 1) / tile_size; }
-    /// Rows of tiles; empty unless halves are kept.
+    /// The tiles, row by row; empty unless halves are kept.
     TileStates& tile_states() { return tile_states_; }
     const TileStates& tile_states() const { return tile_states_; }
 

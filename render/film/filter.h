@@ -7,12 +7,13 @@ namespace scree {
 
 enum class FilterKind : uint8_t { box, tent, gaussian };
 
-/// The reconstruction filter, by importance: a pixel's samples are drawn around its middle with the filter's density,
-/// so that a pixel is the plain mean of its own samples (Ernst, Stamminger, Greiner 2006). Pixels stay independent: a
-/// crop is bit for bit the same as that part of the whole.
+/// The reconstruction filter, importance sampled: a pixel's samples are drawn around its middle with the filter's
+/// density, so that a pixel is the plain mean of its own samples (Ernst, Stamminger, Greiner 2006).
+///
+/// Pixels stay independent: a crop is bit for bit the same as this part of the whole picture.
 struct Filter {
     FilterKind kind = FilterKind::gaussian;
-    double radius = 1.5; ///< pixels; box: half its width; gaussian: where it is cut, standard deviation a third of it
+    double radius = 1.5; ///< pixels; box: half the width; gaussian: where it is cut off, 3 standard deviations
 
     /// Offset from the pixel's middle, in pixels.
     V2d sample(double u1, double u2) const

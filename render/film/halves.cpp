@@ -60,7 +60,7 @@ V3d PixelHalves::variance() const
     if (b.samples == 0) return of_mean(a);
     if (a.samples == 0) return of_mean(b);
     if (a.samples >= 2 && b.samples >= 2) return 0.25 * (of_mean(a) + of_mean(b));
-    // Too few to know the spread within each half: that of all of them.
+    // Too few samples to know the spread within each half: the spread of all is used.
     HalfSums all = a;
     all.samples += b.samples;
     all.sum += b.sum;

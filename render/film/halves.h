@@ -12,11 +12,11 @@ namespace scree {
 
 inline constexpr uint32_t undecided = std::numeric_limits<uint32_t>::max();
 
-/// How many samples of each half count in the pixels of a tile, which may be more than are drawn yet; `undecided` until
-/// the other half has said.
+/// How many samples of each half count in the pixels of a tile (perhaps more than are drawn yet); `undecided` until the
+/// other half has decided.
 ///
-/// Half 0 has the samples of even number, half 1 those of odd number. counts[0] is decided by half 1 alone and the
-/// other way round, so that a half's mean is unbiased whatever was drawn.
+/// Half 0 has the samples of even number, half 1 those of odd number. Half 1 alone decides counts[0], and half 0 alone
+/// decides counts[1], so that the mean of each half is unbiased.
 struct HalfCounts {
     std::array<uint32_t, 2> counts{undecided, undecided};
 
@@ -30,26 +30,26 @@ struct HalfSums {
 
     void add(const V3d& x);
     V3d mean() const { return samples > 0 ? sum / samples : V3d(0); }
-    /// Of one sample, per channel; 0 below two samples.
+    /// Variance of one sample, per channel; 0 below two samples.
     V3d variance() const;
 };
 
-/// The samples of a pixel in two halves that share nothing.
+/// The samples of a pixel in two independent halves.
 class PixelHalves {
 public:
-    /// The number of the sample to draw next, the lowest, so that in the end each half has had so many; nothing once it
-    /// has.
+    /// The number of the sample to draw next, the lowest one first, until `each` samples of each half are drawn; then
+    /// nothing.
     std::optional<uint32_t> next(const std::array<uint32_t, 2>& each) const;
-    /// A sample was drawn, finite or not.
+    /// Counts a drawn sample, finite or not.
     void note_drawn(uint32_t number) { ++drawn_[number & 1]; }
-    /// number: of the sample, from 0; those past what counts only help to judge the other half.
+    /// number: of the sample, from 0; samples beyond the half's count only help to decide the other half's count.
     void add(uint32_t number, const Color& radiance, const HalfCounts& counts);
 
-    /// What counts of a half.
+    /// The samples of a half that count.
     const HalfSums& half(int h) const { return halves_[static_cast<size_t>(h)]; }
-    /// All samples of a half, those that do not count too, while the other half is undecided.
+    /// All samples of a half, also those that do not count: they decide the other half's count.
     HalfSums judge(int h, const HalfCounts& counts) const;
-    /// The pixel's value: the mean of both halves' means; of one where the other has none.
+    /// The pixel's value: the mean of the two halves' means, or one half's mean where the other has no samples.
     V3d mean() const;
     /// Variance of `mean`, per channel; 0 where neither half has two samples.
     V3d variance() const;
@@ -57,10 +57,10 @@ public:
 private:
     std::array<uint32_t, 2> drawn_{0, 0};
     std::array<HalfSums, 2> halves_;
-    HalfSums late_; ///< of the half that was decided first: at most one goes on for the other's sake
+    HalfSums late_; ///< samples beyond the count of the half that was decided first; only that half can have these
 };
 
-/// What the samples of one half say of a tile.
+/// Estimates for a tile from the samples of one half.
 struct TileEstimate {
     int64_t pixels = 0;
     V3d sum{0}; ///< of the pixels' means
@@ -69,18 +69,18 @@ struct TileEstimate {
     double work = 1; ///< of one sample, mean over the pixels
 };
 
-/// A tile: what counts of its halves and what these said last. estimates[h] is of half h, which decides on the other
-/// one.
+/// The state of a tile: the counts of its halves, and each half's last estimate. estimates[h] is from half h and
+/// decides the other half's count.
 struct TileState {
     HalfCounts counts;
-    std::array<uint64_t, 2> work{0, 0}; ///< of all samples of each half, counted or not: rays, and what takes as long
+    std::array<uint64_t, 2> work{0, 0}; ///< of all samples of each half, counted or not: rays, and steps as costly
     std::array<TileEstimate, 2> estimates;
 };
 
-/// How far a picture has come. Samples are those of a half, wherever they are asked for.
+/// How far a picture has come; numbers of samples are per half, in the tiles that still need them.
 struct TileStates {
-    uint32_t done = 0; ///< that there are
-    uint32_t level = 1; ///< that there are to be next
+    uint32_t done = 0; ///< samples drawn so far
+    uint32_t level = 1; ///< samples to reach next
     std::vector<TileState> tiles;
 };
 

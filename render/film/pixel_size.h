@@ -5,11 +5,11 @@
 
 namespace scree {
 
-/// In the place of a number of grains: every one.
+/// Used as a number of grains: all grains.
 inline constexpr uint32_t all_grains = std::numeric_limits<uint32_t>::max();
 
-/// How wide a pixel is at a distance along the view from the camera, in the unit of the camera's lengths: at distance
-/// 0, and more for each unit.
+/// The width of a pixel at a distance from the camera along the view, in the unit of the camera's lengths: `width` at
+/// distance 0, plus `slope` per unit of distance.
 struct PixelSize {
     double width = 0, slope = 0;
 };

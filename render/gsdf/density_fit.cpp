@@ -17,7 +17,7 @@ size_t at(uint32_t stratum, int row, int column)
     return static_cast<size_t>(stratum) * cells + Grid::neighbour(row, column);
 }
 
-/// Density of a half by counting; `total` receives how many fell into each stratum.
+/// Density of one half from its counts; `total` receives the number of counts in each stratum.
 Field count_density(const DirectionCounts& counts, std::array<double, strata>& total)
 {
     Field density(counts.size());
@@ -33,13 +33,13 @@ Field count_density(const DirectionCounts& counts, std::array<double, strata>& t
     return density;
 }
 
-/// Near the poles, where columns are narrower than rows are wide, smooths along columns until they are not.
+/// Smooths across columns near the poles, where columns are narrower than rows are wide, until both resolve alike.
 void smooth_poles(Field& field)
 {
     tbb::parallel_for(0u, strata, [&](uint32_t s) {
         std::array<double, columns> values;
         for (int row = 0; row < rows; ++row) {
-            const double narrow = 0.5 / std::sin((row + 0.5) * Grid::row_width); // against half the widest
+            const double narrow = 0.5 / std::sin((row + 0.5) * Grid::row_width); // half the widest column over this one
             for (int pass = 0; pass < std::min(64, static_cast<int>(narrow * narrow)); ++pass) {
                 for (int c = 0; c < columns; ++c) values[static_cast<size_t>(c)] = field[at(s, row, c)];
                 for (int c = 0; c < columns; ++c) {
@@ -113,7 +113,7 @@ Field smoothed(const Field& field, const Smoothing& how)
     return result;
 }
 
-/// Weighs the fit of two densities.
+/// Estimates the error of a smoothing from how well each half predicts the other.
 class Judge {
 public:
     Judge(const std::array<DirectionCounts, 2>& halves, const std::array<double, strata>& stratum_mass)
@@ -124,20 +124,20 @@ public:
         for (size_t i = 0; i < both.size(); ++i) both[i] = 0.5 * (density_[0][i] + density_[1][i]);
         smooth_poles(both);
         expected_ = filtered(both, {2, 2, 2});
-        for (double& e : expected_) e += 1e-3 / (4 * pi); // what is hardly ever scattered into does not count
+        for (double& e : expected_) e += 1e-3 / (4 * pi); // so that directions of hardly any light do not count
     }
 
     struct Verdict {
-        double half = 0; ///< squared error of a smoothed half
-        double full = 0; ///< of both halves together
+        double half = 0; ///< squared error of one smoothed half
+        double full = 0; ///< squared error of both halves together
         double spread = 0; ///< standard error of these estimates
     };
 
     Verdict judge(const Smoothing& how) const
     {
         const Field a = smoothed(density_[0], how), b = smoothed(density_[1], how);
-        // What a half foretells is off from the other by its own error and by the other's noise, which is known:
-        // Poisson's.
+        // A smoothed half differs from the other half by its own error and by the other half's noise; that noise is
+        // known (Poisson).
         Verdict verdict;
         std::array<double, strata> halves{};
         for (uint32_t s = 0; s < strata; ++s) {
@@ -183,7 +183,8 @@ private:
     Field expected_;
 };
 
-/// Scales rows, the same in all strata, until as much is scattered into each as was counted; and strata to a mass of 1.
+/// Scales each row by one factor in all strata until the row receives as much as was counted, and strata to a mass
+/// of 1.
 std::vector<float> keep_rows(Field density, const Field& counted, const std::array<double, strata>& stratum_mass)
 {
     for (int iteration = 0; iteration < 8; ++iteration) {
@@ -209,7 +210,7 @@ std::vector<float> keep_rows(Field density, const Field& counted, const std::arr
     return {density.begin(), density.end()};
 }
 
-/// The smoothings a step away: less or more along one axis, or one of the ways changed.
+/// The smoothings one step away: fewer or more passes along one axis, or one flag changed.
 std::vector<Smoothing> neighbours(const Smoothing& from)
 {
     constexpr int most = 64;
@@ -246,8 +247,8 @@ DensityFit fit_density(const std::array<DirectionCounts, 2>& halves, const std::
             any = true;
         }
     }
-    // Of errors like a Gaussian's, the mean is sqrt(2 / pi) of the root mean square. The estimate has an error of its
-    // own, and the smallest of many is smaller than it should be.
+    // The mean magnitude of Gaussian errors is sqrt(2 / pi) of their root mean square. The spread is added because the
+    // estimate has an error of its own, and the smallest of many estimates is too small.
     fit.error = std::sqrt(2 / pi * (std::max(0.0, best.full) + best.spread));
     fit.density = keep_rows(judge.fit(fit.smoothing), judge.fit({{0, 0, 0}, false, false, false}), stratum_mass);
     return fit;

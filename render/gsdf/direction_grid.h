@@ -4,9 +4,10 @@
 
 namespace scree {
 
-/// Cells over the sphere of directions, equally wide in the polar angle and in azimuth, in the frame of an encounter
-/// (see Encounter); a cell is a row (polar angle, from straight on to straight back) and a column. The plane of
-/// incidence lies in the middle of columns, as much is scattered within it.
+/// Cells over the sphere of directions, equally wide in polar angle and in azimuth, in the frame of an Encounter.
+///
+/// A cell is a row (polar angle, from straight on to straight back) and a column (azimuth). The plane of incidence lies
+/// in the middle of columns, because much light is scattered within this plane.
 struct DirectionGrid {
     static constexpr uint32_t rows = 64, columns = 32, cells = rows * columns;
     static constexpr double row_width = pi / rows, column_width = 2 * pi / columns;
@@ -30,7 +31,7 @@ struct DirectionGrid {
     {
         return direction((cell / columns + 0.5) * row_width, cell % columns * column_width);
     }
-    /// The cell at a row and column that may be one beyond the ends: across a pole lies the column opposite.
+    /// The cell at a row and a column, each at most one beyond its range; beyond a pole lies the opposite column.
     static uint32_t neighbour(int row, int column)
     {
         constexpr int row_count = rows, column_count = columns;

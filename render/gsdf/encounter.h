@@ -4,13 +4,15 @@
 
 namespace scree {
 
-/// The frame in which a grain's scattering is recorded: z along the ray that comes in, the ray's entry into the unit
-/// bounding sphere in the plane of z and x, at (b, 0, -cos beta_o), b = sin beta_o >= 0.
+/// The frame in which a grain's scattering is recorded: z is the direction omega_o of the incoming ray, which enters
+/// the unit bounding sphere at x_o = (b, 0, -cos beta_o), b = sin beta_o >= 0.
+///
+/// beta_o is the angle between omega_o and the inward normal n_o at x_o (Müller et al. 2016, supplement, Algorithm 1).
 struct Encounter {
     V3d x, y, z;
-    double q = 0; ///< b^2 = sin^2 beta_o in 0..1: for light from afar it is uniform
+    double q = 0; ///< b^2 = sin^2 beta_o, 0..1; uniformly distributed for light from far away
 
-    /// entry: unit, where the ray along `direction` (unit) enters, from the sphere's centre.
+    /// entry: x_o, unit, from the sphere's centre. direction: omega_o, unit.
     Encounter(const V3d& entry, const V3d& direction) : z(direction)
     {
         const V3d across = entry - entry.dot(direction) * direction;

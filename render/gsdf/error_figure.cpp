@@ -11,9 +11,9 @@ namespace {
 using Map = ScatteringMap;
 
 constexpr ScreenColor paper = figure_paper, ink = figure_ink, faint = figure_faint;
-constexpr double lowest = 0.01, highest = 10; // of relative errors that are told apart
+constexpr double lowest = 0.01, highest = 10; // relative errors at the ends of the colour scale
 
-/// Where everything stands.
+/// Positions of the figure's parts, in pixels.
 struct Layout {
     int scale, margin, line; // of text
     int left, top, pitch, gap; // of the sheets of discs

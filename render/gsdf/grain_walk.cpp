@@ -6,18 +6,19 @@ namespace scree {
 
 namespace {
 
-// Meshes that run through themselves have pockets with a way in and none out. What is not white has lost all light long
-// before.
+// A mesh that intersects itself has pockets that a path can enter but not leave. Where a grain is not white, such a
+// path has lost all its light long before these limits.
 constexpr uint32_t most_events = 1000000, most_opaque_events = 4096;
-constexpr double rounding = 0x1p-50; // of places in the unit sphere
+constexpr double rounding = 0x1p-50; // of positions in the unit sphere
 
-/// The next face on the way from o along d, or false when the sphere is left.
+/// A path's next hit on the grain's surface.
 struct Step {
     V3d point, normal;
     double t = 0;
     uint32_t triangle = no_triangle;
 };
 
+/// Finds the next face from o along d; false when the path leaves the sphere.
 bool next_face(const Exemplar& exemplar, const V3d& o, const V3d& d, bool inside, uint32_t skip, Step& step)
 {
     ExemplarHit hit;
@@ -26,7 +27,7 @@ bool next_face(const Exemplar& exemplar, const V3d& o, const V3d& d, bool inside
     return true;
 }
 
-/// The unit sphere: it is entered where the path starts, and left across a chord.
+/// The same for a grain that is the unit sphere: the path enters where it starts, and next meets the end of a chord.
 bool next_face(const V3d& o, const V3d& d, bool inside, bool first, Step& step)
 {
     if (!inside && !first) return false;
@@ -58,7 +59,7 @@ GrainExit walk_grain(const GrainBody& body, V3d o, V3d d, Sampler& sampler)
                                        : next_face(o, d, inside, exit.events == 0, step);
         if (!met) {
             if (!inside) break;
-            inside = false; // lost between two triangles: on as if the interface were not there
+            inside = false; // slipped out between two triangles: goes on as if the interface were not there
             step.triangle = no_triangle;
             continue;
         }

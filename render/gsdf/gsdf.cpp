@@ -11,7 +11,8 @@ namespace {
 
 using Grid = DirectionGrid;
 
-/// Tent weights of the neighbours around a place, in cells from the first cell's middle.
+/// The two cells whose middles enclose a position, and the weight of the upper one. cells: the position, in cells from
+/// the start of the first cell.
 struct Tent {
     int low;
     double fraction;
@@ -35,7 +36,7 @@ void integrate_cells(std::span<const float> density, std::span<float> mass)
         // Integrals of sin(middle + x) and of (1 - |x| / row_width) sin(middle + x) over half a row on either side.
         const double full = std::sin(h) * sine, odd = (1 - std::cos(h)) * cosine;
         const double even_x = std::cos(h) + h * std::sin(h) - 1,
-                     odd_x = std::sin(h) - h * std::cos(h); // of x cos x, x sin x
+                     odd_x = std::sin(h) - h * std::cos(h); // integrals of x cos x and x sin x
         for (int column = 0; column < columns; ++column) {
             const double here = azimuth_mean(row, column);
             double sum = 0;
@@ -135,7 +136,7 @@ uint32_t Gsdf::sample_cell(uint32_t stratum, double u) const
     const auto end = begin + cells;
     const auto found = std::upper_bound(begin, end, static_cast<float>(u * *(end - 1)));
     auto cell = static_cast<uint32_t>(std::min(found, end - 1) - begin);
-    while (cell > 0 && cell_mass(stratum, cell) == 0) --cell; // rounding of the last
+    while (cell > 0 && cell_mass(stratum, cell) == 0) --cell; // rounding can lead past the last cell that has mass
     return cell;
 }
 
@@ -172,7 +173,7 @@ std::string doubt_of(const GsdfQuality& quality, double wanted_error)
                            quality.lost, quality.paths);
     }
     if (quality.density_error <= wanted_error) return "";
-    return fmt::format("known to {:.2g} % and not to the {:g} % asked for", 100 * quality.density_error,
+    return fmt::format("its error is {:.2g} %, more than the {:g} % asked for", 100 * quality.density_error,
                        100 * wanted_error);
 }
 

@@ -21,35 +21,37 @@ struct PackedDirection {
     V3d unpack() const;
 };
 
-/// One path through a grain, from the frame of its encounter to where it left the bounding sphere.
+/// One path through a grain: where and in which direction it left the bounding sphere, in the frame of its Encounter.
 struct GsdfRecord {
-    PackedDirection point, direction;
-    float length = 0; ///< of the way in the grain's material, in radii
+    PackedDirection point, direction; ///< x_i and omega_i in the paper
+    float length = 0; ///< of the path inside the grain's material, in radii
     uint32_t events = 0; ///< scatterings at the surface
 };
 
-/// What a GSDF was made with and how far it can be trusted.
+/// How a GSDF was made and how accurate it is.
 struct GsdfQuality {
     uint64_t paths = 0; ///< through the bounding sphere
-    uint64_t lost = 0; ///< of them, given up on
+    uint64_t lost = 0; ///< of these, given up
     double density_error = 0; ///< estimated mean relative error of the directional density
     double mean_cosine = 0, mean_cosine_error = 0; ///< of all scattered paths, with its standard error
     double seconds = 0;
 };
 
-/// What is to be said when a GSDF is not as good as it should be; empty if nothing.
+/// A warning about a GSDF that lost many paths or misses the wanted error; empty if there is nothing to warn about.
 std::string doubt_of(const GsdfQuality& quality, double wanted_error);
 
-/// The scattering of a grain averaged over its rotations (grain-scattering distribution function, Müller et al. 2016,
-/// section 4).
+/// The scattering of a grain averaged over its rotations: the grain-scattering distribution function f_g of Müller et
+/// al. 2016, section 4.
 ///
-/// With probability alpha0(q) a ray misses the grain in its bounding sphere; else it is scattered as one of the
-/// recorded paths was. Paths are recorded without loss: absorption, tint and reflectance follow from a record's length
-/// and events when rendering. Strata are equally wide in q = sin^2 beta_o.
+/// With probability alpha0(q), the paper's alpha_g^0(beta_o), a ray in the bounding sphere misses the grain; else it is
+/// scattered like one of the recorded paths, which are draws of p_g(x_i, omega_i | beta_o). Paths are recorded without
+/// loss: absorption, tint and reflectance follow from a record's length and events when rendering. So the paper's
+/// alpha_g^+(beta_o) is (1 - alpha0(q)) times the mean of weight() over the records. Strata are equally wide in
+/// q = sin^2 beta_o.
 ///
-/// The density of directions is tabulated over DirectionGrid from many more paths than are recorded. Sampling chooses a
-/// cell by its mass, and a record of that cell says the rest; `density` follows the neighbours across a cell and
-/// integrates over it to the same mass.
+/// The density of directions (p_g^{omega_i} in the paper, here of the lossless grain) is tabulated over DirectionGrid
+/// from many more paths than are recorded. Sampling chooses a cell by its mass, then one of that cell's records.
+/// density() interpolates between neighbouring cells and integrates over each cell to the cell's mass.
 class Gsdf {
 public:
     static constexpr uint32_t strata = 32, alpha_bins = 512;
@@ -64,40 +66,40 @@ public:
         std::vector<Imath::C3f> weights; ///< of the records, for metals; else empty
         GsdfQuality quality;
     };
-    /// Takes over data of the right sizes, the masses of every stratum summing to 1; every cell of positive mass has a
-    /// record.
+    /// data: of the sizes above; the masses of each stratum sum to 1, and each cell of positive mass has a record.
     explicit Gsdf(Data data);
 
-    /// Probability that a ray misses the grain.
+    /// alpha_g^0(beta_o) in the paper: probability that a ray misses the grain; q = sin^2 beta_o.
     double alpha0(double q) const;
-    /// The mean over q: light from afar that passes straight through.
+    /// Mean of alpha0 over q: the share of light from far away that passes straight through.
     double mean_alpha0() const;
     /// Whether no ray ever misses.
     bool always_met() const { return always_met_; }
 
     /// One of the two strata around q, chosen by u so that the scattering is interpolated linearly in q.
     static uint32_t stratum(double q, double u);
-    /// Density of directions per solid angle; w is in the frame of the encounter. Integrates to 1.
+    /// Density of directions per solid angle, p_g^{omega_i}(w | beta_o) of the lossless grain; integrates to 1. w:
+    /// omega_i in the frame of the Encounter.
     double density(uint32_t stratum, const V3d& w) const;
     /// The integral of `density` over a cell.
     double cell_mass(uint32_t stratum, uint32_t cell) const
     {
         return cell_density(stratum, cell) * DirectionGrid::area(cell);
     }
-    /// The mean of `density` over a cell: what strategies are weighed by.
+    /// The mean of `density` over a cell; weighs sampling strategies against each other.
     double cell_density(uint32_t stratum, uint32_t cell) const { return data_.density[index(stratum, cell)]; }
     /// A cell with probability cell_mass.
     uint32_t sample_cell(uint32_t stratum, double u) const;
-    /// A record's number: any of a cell's, by u.
+    /// The number of one of the cell's records, each equally likely; u in 0..1.
     uint32_t pick(uint32_t stratum, uint32_t cell, double u) const;
     std::span<const GsdfRecord> records(uint32_t stratum, uint32_t cell) const;
     const GsdfRecord& record(uint32_t number) const { return data_.records[number]; }
-    /// What a record's path keeps of light in a grain of this material and radius (in the material's units).
+    /// The share of light that a record's path keeps in a grain of this material and radius (in the material's units).
     Weight weight(uint32_t number, const Material& material, double radius) const;
 
     /// Probability that an encounter that is uniform in q falls into the stratum, given that it scatters.
     double stratum_mass(uint32_t stratum) const { return stratum_mass_[stratum]; }
-    /// Mean cosine of the recorded scattering, for light from afar.
+    /// Mean cosine of the recorded scattering, for light from far away.
     double mean_cosine() const;
     const Data& data() const { return data_; }
     uint64_t bytes() const;
@@ -106,8 +108,8 @@ private:
     static size_t index(uint32_t stratum, uint32_t cell) { return static_cast<size_t>(stratum) * cells + cell; }
 
     Data data_;
-    std::vector<float> shape_; // of cells: the mean over that of the interpolated density
-    std::vector<float> cumulated_; // of masses, up to and with the cell, by stratum
+    std::vector<float> shape_; // per cell: its mean density over the mean of the interpolated density
+    std::vector<float> cumulated_; // sums of masses within a stratum, up to and including the cell
     std::array<double, strata> stratum_mass_{};
     bool always_met_ = false;
 };

@@ -19,21 +19,21 @@ namespace {
 
 constexpr uint32_t batch_size = 4096;
 constexpr uint64_t recorded_batches = 128; // 2^19 paths
-constexpr uint32_t most_of_a_cell = 256; // records
+constexpr uint32_t most_of_a_cell = 256; // records kept per cell
 
-/// A record and where it belongs.
+/// A record, and the stratum and cell it belongs to.
 struct Scattered {
     uint32_t stratum, cell;
     GsdfRecord record;
     Color weight;
 };
 
-/// What is counted; sums of whole numbers, so that the order does not matter.
+/// The counts; sums are integers, so that their order does not matter.
 struct Counts {
     std::array<DirectionCounts, 2> directions;
     std::vector<uint64_t> paths = std::vector<uint64_t>(Gsdf::alpha_bins), missed = paths;
     uint64_t lost = 0;
-    // of the cosine, in steps of 2^-30 and 2^-20 of its square
+    // Sums of the cosine in steps of 2^-30, and of its square in steps of 2^-20.
     int64_t scattered = 0, cosines = 0, squares = 0;
 
     Counts()
@@ -55,7 +55,7 @@ struct Counts {
     }
 };
 
-/// What leaves at `point` along `direction` of a ray that came in at `entry` along `incoming`.
+/// The record of a path that comes in at `entry` along `incoming` and leaves at `point` along `direction`.
 Scattered describe(const V3d& entry, const V3d& incoming, const V3d& point, const V3d& direction, const GrainExit& exit)
 {
     const Encounter encounter(entry, incoming);
@@ -69,8 +69,8 @@ Scattered describe(const V3d& entry, const V3d& incoming, const V3d& point, cons
     return s;
 }
 
-/// i with its twelve bits in reverse: successive paths lie far apart in q, so that the first records of a cell stand
-/// for all.
+/// i with its twelve bits reversed: successive paths lie far apart in q, so that the first records of a cell represent
+/// all of them.
 uint32_t scattered_order(uint32_t i)
 {
     uint32_t reversed = 0;
@@ -179,8 +179,8 @@ private:
         done_ = batches;
     }
 
-    /// The counts; a stratum that nothing was met in has those of the nearest that has something, as rays between the
-    /// two ask for it.
+    /// The counts; a stratum in which no path met the grain gets those of the nearest stratum that has some, because
+    /// rays between the two strata sample both.
     std::array<DirectionCounts, 2> lent_to_empty_strata()
     {
         std::array<DirectionCounts, 2> lent = counts_.directions;
@@ -232,8 +232,8 @@ private:
         return mass;
     }
 
-    /// Sorts records into cells; a cell that the density reaches but no record has the nearest record of its stratum,
-    /// turned.
+    /// Sorts records into cells; a cell with a density but no record gets the nearest record of its stratum, turned
+    /// into the cell.
     void group_records(Gsdf::Data& data)
     {
         constexpr size_t all = static_cast<size_t>(Gsdf::strata) * Gsdf::cells;
@@ -305,7 +305,7 @@ private:
     Counts counts_;
     std::vector<std::vector<Scattered>> recorded_; // by batch
     uint64_t done_ = 0; // batches
-    std::array<uint32_t, Gsdf::strata> lender_{}; // of each stratum: itself, if it has anything
+    std::array<uint32_t, Gsdf::strata> lender_{}; // the stratum whose counts each stratum uses: itself, if it has any
 };
 
 } // namespace

@@ -45,7 +45,7 @@ uint64_t gsdf_key(const GsdfSource& source, const GsdfOptions& options)
     if (m.kind != MaterialKind::lambert) add(m.alpha);
     if (m.kind == MaterialKind::dielectric) add(m.ior);
     if (m.kind == MaterialKind::conductor) {
-        add(Imath::C3f(m.eta)); // as it is in a build in double precision too
+        add(Imath::C3f(m.eta)); // floats, so that a build in double precision has the same key
         add(Imath::C3f(m.k));
     }
     return key;
@@ -64,7 +64,7 @@ FoundGsdf stored_gsdf(const GsdfSource& source, const GsdfOptions& options, cons
         if (stored.tag.key == key)
             found.gsdf = std::move(stored.gsdf);
         else
-            found.remark = fmt::format("{} was of another grain and is made again", found.file.string());
+            found.remark = fmt::format("{} belongs to another grain; it is made again", found.file.string());
     } catch (const InputError& error) {
         found.remark = fmt::format("{}: {}; it is made again", error.place(), error.found());
     }

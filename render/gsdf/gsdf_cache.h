@@ -8,17 +8,17 @@
 
 namespace scree {
 
-/// What a GSDF is wanted of.
+/// The grain whose GSDF is wanted.
 struct GsdfSource {
-    uint64_t shape = 0; ///< hash of what the shape is; the same for the same shape in every run
+    uint64_t shape = 0; ///< hash of the shape; the same for the same shape in every run
     Material material; ///< absorption, tint and reflectance do not matter
-    /// Makes the shape, when it must be traced; a null pointer is the sphere itself.
+    /// Makes the shape, called only when it must be traced; a null pointer is the sphere itself.
     std::function<std::shared_ptr<const Exemplar>()> exemplar;
 };
 
 struct FoundGsdf {
     std::shared_ptr<const Gsdf> gsdf;
-    bool computed = false; ///< and not found in the cache
+    bool computed = false; ///< traced now, not found in the cache
     std::string remark; ///< why a stored one was not used, or why it could not be stored; may be empty
     std::filesystem::path file;
 };
@@ -27,19 +27,19 @@ struct FoundGsdf {
 /// set.
 std::filesystem::path cache_folder();
 
-/// Names what decides a GSDF, to the bit: shape, what of the material matters, and options. So a picture does not
-/// depend on what else a cache holds.
+/// A hash of everything that decides a GSDF, to the bit: shape, the relevant part of the material, and options. So a
+/// picture does not depend on what else a cache holds.
 uint64_t gsdf_key(const GsdfSource& source, const GsdfOptions& options);
 
 /// The GSDF if it is in `folder`; else none, and perhaps a remark.
 FoundGsdf stored_gsdf(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder);
 
-/// The GSDF from `folder`, else made and kept there. A damaged or outdated file is made again. Without a folder, or
-/// when it cannot be written, it is made for this run only.
+/// Reads the GSDF from `folder`, or else makes it and keeps it there. A damaged or outdated file is made again. Without
+/// a folder, or when the file cannot be written, the GSDF is made for this run only.
 FoundGsdf find_gsdf(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder,
                     const Progress& progress = {});
 
-/// The GSDF made anew and kept in `folder`, whatever is there.
+/// Makes the GSDF and keeps it in `folder`, even if `folder` has it already.
 FoundGsdf make_gsdf(const GsdfSource& source, const GsdfOptions& options, const std::filesystem::path& folder,
                     const Progress& progress = {});
 

@@ -14,9 +14,9 @@ static_assert(sizeof(GsdfRecord) == 16 && sizeof(Imath::C3f) == 12);
 
 constexpr std::array<char, 8> magic{'S', 'C', 'R', 'E', 'E', 'G', 'S', 'D'};
 const std::string what = "a table of grain scattering";
-constexpr uint32_t version = 3; // also of what the numbers mean: count up when any of that changes
+constexpr uint32_t version = 3; // of the format and of the numbers' meaning: increase it when either changes
 
-/// What a file begins with. Then alpha0, density, first, records, weights follow as they lie in memory.
+/// The start of a file; alpha0, density, first, records and weights follow, as they lie in memory.
 struct Header {
     std::array<char, 8> magic{};
     uint32_t version = 0, alpha_bins = 0, strata = 0, cells = 0;
@@ -60,10 +60,10 @@ StoredGsdf read_gsdf(const std::filesystem::path& file)
 {
     TableFileReader reader(file, what);
     const auto header = reader.read<Header>();
-    if (header.magic != magic) throw reader.refuse("something else");
+    if (header.magic != magic) throw reader.refuse("a file of another kind");
     if (header.version != version || header.alpha_bins != Gsdf::alpha_bins || header.strata != Gsdf::strata ||
         header.cells != Gsdf::cells) {
-        throw reader.refuse("another version");
+        throw reader.refuse("a file of another version");
     }
     constexpr size_t all = static_cast<size_t>(Gsdf::strata) * Gsdf::cells;
     const uint64_t fixed = (Gsdf::alpha_bins + all) * sizeof(float) + (all + 1) * sizeof(uint32_t);

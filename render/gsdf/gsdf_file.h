@@ -7,13 +7,13 @@
 
 namespace scree {
 
-/// What a stored GSDF is of and how well it was wanted.
+/// Which GSDF a file holds, and the error it was made for.
 struct GsdfTag {
     uint64_t key = 0; ///< see gsdf_key
-    double error = 0; ///< that was asked for; what was reached stands in its quality
+    double error = 0; ///< that was asked for; GsdfQuality has the error reached
 };
 
-/// Writes a GSDF, whole or not at all, under a checksum. Throws InputError where that is not possible.
+/// Writes a GSDF, whole or not at all, with a checksum. Throws InputError if the file cannot be written.
 void write_gsdf(const std::filesystem::path& file, const Gsdf& gsdf, const GsdfTag& tag);
 
 struct StoredGsdf {

@@ -77,7 +77,7 @@ nlohmann::json report_json(const GsdfReport& report)
 std::string gsdf_table_head()
 {
     return fmt::format("{:<17}  {:<6}  {:>7}  {:>8}  {:>7}  {:>5}  {:>7}  {:>8}  {:>7}  {:>8}  {:>5}  {:>7}  {:>5}  {}",
-                       "grain", "from", "seconds", "paths", "error %", "asked", "alpha0", "cosine", "+-", "records'",
+                       "grain", "from", "seconds", "paths", "error %", "asked", "alpha0", "cosine", "+-", "rec. cos",
                        "lost", "records", "MB", "file");
 }
 

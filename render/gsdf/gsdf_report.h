@@ -10,13 +10,13 @@
 
 namespace scree {
 
-/// A grain's scattering, found, and what to say of it.
+/// The scattering of one grain, and what to report about it.
 struct GsdfReport {
     GsdfSubject subject;
     FoundGsdf found;
-    double seconds = 0; ///< of finding it, this time
-    double wanted = 0; ///< error
-    /// Of the figure, if one was drawn.
+    double seconds = 0; ///< to find or trace it in this run
+    double wanted = 0; ///< error asked for
+    /// The figure's file and numbers.
     struct Figure {
         std::string file;
         uint64_t paths = 0;
@@ -25,18 +25,19 @@ struct GsdfReport {
     std::optional<Figure> figure;
 };
 
-/// The line of names over the lines of grains, and such a line.
+/// The table's line of column names, and the line of one grain.
 std::string gsdf_table_head();
 std::string gsdf_table_line(const GsdfReport& report);
 
-/// What the forms of scattering miss, as lines of a table.
+/// The errors of the forms of scattering, as lines of a table.
 std::vector<std::string> form_table(const MapErrors& errors, const std::string& grain);
 
-/// Everything in numbers, with alpha0 over q and the phase function over the polar angle: an array, an object a grain.
+/// All numbers as JSON, with alpha0 over q and the phase function over the polar angle: an array of one object per
+/// grain.
 std::string gsdf_json(const std::vector<GsdfReport>& reports);
 
-/// Scattering of light from afar per solid angle by the polar angle from straight on, in DirectionGrid::rows bins of
-/// equal width, given that it is scattered: a mean of 1 / (4 pi).
+/// The phase function of scattered light from far away: density per solid angle, in DirectionGrid::rows bins of equal
+/// width of the polar angle from straight on; its mean over the sphere is 1 / (4 pi).
 std::vector<double> phase_function(const Gsdf& gsdf);
 
 } // namespace scree

@@ -28,13 +28,13 @@ Color rgb(const std::string& text, const Color& absent, const std::string& optio
     for (size_t from = 0, comma = 0; comma != std::string::npos; from = comma + 1) {
         comma = text.find(',', from);
         const auto number = to_double(std::string_view(text).substr(from, comma - from));
-        if (!number || !(*number >= 0 && *number <= largest_index)) numbers.resize(3); // one too many, then
+        if (!number || !(*number >= 0 && *number <= largest_index)) numbers.resize(3); // so that there are too many
         numbers.push_back(static_cast<float>(number.value_or(0)));
     }
     if (numbers.size() == 1) return Color(numbers[0]);
     if (numbers.size() != 3)
         throw InputError(option, in_quotes(text),
-                         "a number from 0 on, or three as in 0.2,0.9,1.1 for red, green and blue");
+                         "a number of 0 or more, or three for red, green and blue, as in 0.2,0.9,1.1");
     return {numbers[0], numbers[1], numbers[2]};
 }
 
@@ -55,7 +55,7 @@ void override_material(const SubjectOptions& options, Material& material, const 
         if (given && !applies)
             throw InputError(option,
                              fmt::format("'{}', which is a {}", name, kinds[static_cast<size_t>(material.kind)]), what,
-                             "--material says otherwise");
+                             "--material changes the material");
     };
     const bool conductor = material.kind == MaterialKind::conductor;
     needs(options.ior.has_value(), "--ior", material.kind == MaterialKind::dielectric, "a dielectric");
@@ -116,7 +116,7 @@ std::vector<GsdfSubject> gsdf_subjects(const std::vector<std::string>& words, co
     }
     if (!of_library && (options.triangles || options.seed)) {
         throw InputError(options.triangles ? "--triangles" : "--seed", "no grain of the library",
-                         "one whose shape is made by it", "a mesh file is taken as it is");
+                         "a library grain, whose shape it changes", "a mesh file or 'sphere' is used unchanged");
     }
     return subjects;
 }

@@ -11,7 +11,7 @@ namespace {
 using Map = ScatteringMap;
 using Row = std::vector<double>; // of direction cells
 
-/// Masses of the turns and of the directions of a row.
+/// Marginal distributions of a row: over turns and over directions.
 struct Margins {
     Row turn = Row(Map::turns), direction = Row(Map::directions);
 
@@ -80,7 +80,7 @@ double distance(const Row& a, const Row& b)
     return sum;
 }
 
-/// The g whose form is the nearest to the masses.
+/// The g whose form is nearest to the masses.
 double fit_g(const HenyeyGreensteinRow& form, const Row& masses)
 {
     double best_g = 0, least = std::numeric_limits<double>::infinity();
@@ -131,7 +131,7 @@ MapErrors map_errors(const ScatteringMap& gsdf, const BruteForceMaps& truth)
     });
     errors.forms = {compare_maps("gsdf", gsdf, truth.both), compare_maps("factored", factored, truth.both),
                     compare_maps("hg", hg, truth.both), compare_maps("isotropic", isotropic, truth.both)};
-    // The halves are apart by sqrt(2) of the noise of each, which is sqrt(2) of that of both together.
+    // The halves differ by sqrt(2) of the noise of one half, which is sqrt(2) of the noise of both together.
     const FormError apart = compare_maps("noise", truth.halves[0], truth.halves[1]);
     errors.noise = {"noise", 0.5 * apart.direction, 0.5 * apart.full};
     return errors;

@@ -19,8 +19,8 @@ using Map = ScatteringMap;
 using Counts = std::vector<uint64_t>; // rows * row_cells
 
 constexpr uint32_t batch_size = 3 * 4096;
-constexpr double near_entry =
-    0.3; // where strata of impacts, the widest of 0.25 in cos beta_o, move the exit across the entry
+// Radii. Strata are up to 0.25 wide in cos beta_o, so nearer to the entry they can move an exit across it.
+constexpr double near_entry = 0.3;
 
 /// The azimuth of v about n_o from the plane of incidence, in -pi..pi; see Encounter.
 double azimuth(const V3d& v, double sin_beta, double cos_beta)
@@ -28,7 +28,7 @@ double azimuth(const V3d& v, double sin_beta, double cos_beta)
     return std::atan2(v.y, cos_beta * v.x + sin_beta * v.z);
 }
 
-/// Of `bins` equal ones, the first centred on 0.
+/// The bin of an angle among `bins` equal ones, the first centred on 0.
 uint32_t bin(double angle, uint32_t bins)
 {
     const int n = static_cast<int>(bins), nearest = static_cast<int>(std::floor(angle / (2 * pi) * n + 0.5));
@@ -55,7 +55,7 @@ struct Tally {
     }
 };
 
-/// A batch serves the rows and sets in turn.
+/// Traces one batch, whose paths serve the rows and sets in turn.
 void trace_batch(const GrainBody& body, uint64_t seed, uint64_t batch, Tally& tally)
 {
     for (uint32_t i = 0; i < batch_size; ++i) {
@@ -99,7 +99,7 @@ Map map_of(const Tally& tally, const std::vector<size_t>& sets)
     return map;
 }
 
-/// Adds what is sampled at impact q, of total weight `weight`.
+/// Adds the distribution that the GSDF samples at impact q, with total weight `weight`.
 void add_impact(const Gsdf& gsdf, double q, double weight, std::span<double> row)
 {
     const double low = q * Gsdf::strata - 0.5, fraction = low - std::floor(low);
@@ -165,7 +165,7 @@ BruteForceMaps brute_force_maps(const GrainBody& body, uint64_t paths, uint64_t 
 {
     const GrainBody pure{body.exemplar, lossless(body.material)};
     const uint64_t batches = std::max<uint64_t>(1, (paths + batch_size - 1) / batch_size);
-    const uint64_t own_seed = mix64(seed ^ 0x62727574652d6634ull); // not that of any GSDF one would choose
+    const uint64_t own_seed = mix64(seed ^ 0x62727574652d6634ull); // unlike any seed one would choose for a GSDF
     tbb::enumerable_thread_specific<Tally> parts;
     std::atomic<uint64_t> finished{0};
     tbb::parallel_for(uint64_t{0}, batches, [&](uint64_t batch) {

@@ -4,7 +4,7 @@ namespace scree {
 
 namespace {
 
-/// The rotation that takes +z to `up` by the shortest way (rows are images of the axes).
+/// The shortest rotation that takes +z to `up` (rows are images of the axes).
 Imath::M33d rotation_to(const V3d& up)
 {
     const V3d z(0, 0, 1);
@@ -27,8 +27,9 @@ EnvironmentMap::EnvironmentMap(std::vector<Color> texels, size_t width, size_t h
 {
     to_map_ = to_world_.transposed();
     for (Color& texel : texels_) texel *= scale;
-    // A cell sees its neighbours through the interpolation: the density is the mean of the 3x3 block, so that it is
-    // positive wherever the radiance is, times the sine of the latitude for the area a row covers.
+    // The density of a cell is the mean of its 3x3 block times the sine of the polar angle. Interpolation carries
+    // radiance into neighbouring cells, so the block makes the density positive wherever the radiance is; the sine is
+    // for the area that a row covers.
     std::vector<float> weight(width * height);
     for (size_t y = 0; y < height; ++y) {
         const double sine = std::sin(pi * (static_cast<double>(y) + 0.5) / static_cast<double>(height));

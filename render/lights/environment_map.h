@@ -7,10 +7,10 @@
 
 namespace scree {
 
-/// A latitude-longitude picture of the far surroundings; bilinear, importance sampled.
+/// A latitude-longitude picture of the far surroundings, interpolated bilinearly and importance sampled.
 ///
 /// The top row looks along `up`. For up = +z the middle of the picture looks along +x and its left quarter along +y
-/// (as in Blender); other ups turn that by the shortest rotation from +z.
+/// (as in Blender); for another `up` the picture is turned by the shortest rotation from +z.
 class EnvironmentMap {
 public:
     /// texels: height rows of width radiances, top row first; all >= 0 and finite.

@@ -8,7 +8,7 @@ namespace scree {
 
 namespace {
 
-/// Roughly the light's flux into a scene of this radius, to choose lights by.
+/// Roughly the light's flux into a scene of this radius; lights are chosen in proportion to it.
 double rough_power(const Light& light, double scene_radius)
 {
     const double disc = pi * scene_radius * scene_radius;
@@ -25,7 +25,7 @@ double rough_power(const Light& light, double scene_radius)
     return 0;
 }
 
-/// 1 - cos of the cone a sphere light fills seen from a point outside; exact for small cones.
+/// 1 - cos of the cone that a sphere light fills, seen from a point outside; accurate for small cones too.
 double sphere_cone(const Light& light, double distance2)
 {
     const double sin2 = light.radius * light.radius / distance2;

@@ -15,7 +15,7 @@ struct Light {
     LightKind kind = LightKind::constant;
     Color radiance{1}; ///< emitted; for distant the radiance of the disc (irradiance when it is a point)
     V3d direction{0, 0, 1}; ///< distant: unit, from the scene towards the light
-    double one_minus_cos = 0; ///< distant: of half its angular diameter; 0 is a point
+    double one_minus_cos = 0; ///< distant: 1 - cos of half its angular diameter; 0 is a point
     V3d corner{0}, edge1{0}, edge2{0}; ///< rectangle
     V3d normal{0, 0, 1}; ///< rectangle: unit
     double area = 0; ///< rectangle, sphere
@@ -24,26 +24,26 @@ struct Light {
     std::shared_ptr<const EnvironmentMap> map; ///< environment
 
     bool is_infinite() const { return kind <= LightKind::distant; }
-    /// A constant surrounding is found by every scattered ray: sampling it would buy nothing.
+    /// Whether next-event estimation samples the light; not for a constant one, which every ray that escapes finds.
     bool is_sampled() const { return kind != LightKind::constant; }
 };
 
 struct LightSample {
     V3d direction{0}; ///< unit, from the point towards the light
     double distance = 0; ///< to the light; infinity where it is infinite
-    Color radiance{0}; ///< arriving, were nothing in the way
-    double pdf = 0; ///< per solid angle, including the choice of the light; for a point light its choice only
+    Color radiance{0}; ///< that arrives if nothing is in the way
+    double pdf = 0; ///< per solid angle, times the probability of choosing the light; for a point light only the latter
     bool delta = false;
     uint32_t light = 0;
     bool valid = false;
 };
 
-/// All lights of a scene, and the choice among those worth sampling (by a rough power).
+/// All lights of a scene, and the random choice among the sampled ones (by a rough power).
 class LightSet {
 public:
     LightSet() = default;
-    /// scene_radius: of the sphere around everything, in render coordinates; only weighs infinite lights against near
-    /// ones.
+    /// scene_radius: of the sphere around everything, in render coordinates; it only weighs infinite lights against
+    /// finite ones.
     LightSet(std::vector<Light> lights, double scene_radius);
 
     const std::vector<Light>& lights() const { return lights_; }
@@ -51,13 +51,13 @@ public:
     bool any_sampled() const { return any_sampled_; }
 
     LightSample sample(const V3d& point, double u_choice, double u1, double u2) const;
-    /// Density with which `sample` at `point` gives `direction` through light `index` (met at `distance`, if finite).
+    /// Density with which `sample` at `point` gives `direction` through light `index`. distance: to a finite light.
     double pdf(uint32_t index, const V3d& point, const V3d& direction, double distance) const;
-    /// Where the ray meets a finite light, were nothing in the way; infinity when it does not.
+    /// Distance at which the ray hits a finite light if nothing is in the way; infinity if it misses the light.
     double meet(uint32_t index, const V3d& point, const V3d& direction) const;
     /// Radiance of a finite light seen along `direction`.
     Color emitted(uint32_t index) const { return lights_[index].radiance; }
-    /// Radiance of one infinite light from far along `direction`.
+    /// Radiance of one infinite light seen along `direction`.
     Color infinite_radiance(uint32_t index, const V3d& direction) const;
 
 private:

@@ -8,7 +8,7 @@ namespace scree {
 /// cos_t returns the cosine on the other side, 0 under total internal reflection.
 inline double fresnel_dielectric(double cos_i, double eta, double& cos_t)
 {
-    if (eta == 1) { // the difference below would round: an interface that is not there
+    if (eta == 1) { // no interface: the differences below would not be exactly 0
         cos_t = cos_i;
         return 0;
     }

@@ -33,7 +33,7 @@ struct Ggx {
         return 0.5 * (w.z + std::sqrt(w.z * w.z + alpha * alpha * (w.x * w.x + w.y * w.y)));
     }
 
-    /// A normal distributed as the eye at w sees them: density d_visible (Heitz 2018, JCGT 7(4); holds below the
+    /// A normal drawn among those visible from w, with density d_visible (Heitz 2018, JCGT 7(4); also valid below the
     /// horizon).
     V3d sample_visible(const V3d& w, double u1, double u2) const
     {

@@ -9,9 +9,9 @@ namespace {
 
 V3d flip(const V3d& w) { return {w.x, w.y, -w.z}; }
 
-/// Where a walk is on the microsurface. Heights enter only through the share c of the surface that lies below
-/// (C1(h) in the paper), in which a free flight is c <- c (1-u)^(-1/lambda) for any distribution of heights.
-/// Behind the interface the surface is seen upside down: mirrored, c counts from the other side.
+/// Where a walk is on the microsurface. The height enters only as c, the share of the surface that lies below it (C1(h)
+/// in the paper); a free flight is c <- c (1-u)^(-1/lambda) for any distribution of heights. Behind the interface the
+/// surface is seen upside down: directions are mirrored and c counts from the other side.
 struct Walk {
     const Material& material;
     const Ggx ggx;
@@ -129,7 +129,7 @@ double proxy_pdf_walk(const Material& material, double eta, const V3d& wo, const
 {
     const Walk walk{material, {material.alpha}, eta, -wo};
     const Color single = walk.phase(wi, wi.z < 0);
-    const double lobe = 0.2 * std::abs(wi.z) / pi; // the walks of more than one bounce, roughly
+    const double lobe = 0.2 * std::abs(wi.z) / pi; // roughly the walks of more than one bounce
     return 0.8 * luminance(single) + lobe;
 }
 

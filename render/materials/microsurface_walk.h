@@ -5,10 +5,11 @@
 
 namespace scree {
 
-/// Rough interfaces that lose no energy: a random walk over the GGX microsurface until it is left
-/// (Heitz, Hanika, d'Eon, Dachsbacher 2016). Conductors and dielectrics, wo above the surface (wo.z > 0).
+/// Result of a random walk over the GGX microsurface until the walk leaves it, so that rough interfaces lose no energy
+/// (Heitz, Hanika, d'Eon, Dachsbacher 2016).
 ///
-/// Weights are those of basic radiance L / n^2, which an interface conserves.
+/// For conductors and dielectrics, with wo above the surface (wo.z > 0). Weights apply to basic radiance L / n^2, which
+/// an interface conserves.
 struct WalkSample {
     V3d wi; ///< z < 0: transmitted
     Color weight{1}; ///< 1 for a dielectric, the product of Fresnel reflectances for a conductor
@@ -21,8 +22,8 @@ WalkSample sample_walk(const Material& material, double eta, const V3d& wo, Samp
 /// One unbiased estimate of f(wo, wi) |wi.z|.
 Color estimate_walk(const Material& material, double eta, const V3d& wo, const V3d& wi, Sampler& sampler);
 
-/// A density over wi like that of sample_walk, but not equal to it: single scattering plus a share of cosine lobes.
-/// Good for weighing strategies, which needs only that all of them use the same function.
+/// A density over wi similar to the density of sample_walk, but not equal: single scattering plus a share of a cosine
+/// lobe. It serves to weigh sampling strategies, which only need to use the same function.
 double proxy_pdf_walk(const Material& material, double eta, const V3d& wo, const V3d& wi);
 
 } // namespace scree

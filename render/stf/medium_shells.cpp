@@ -4,10 +4,12 @@ namespace scree {
 
 namespace {
 
-constexpr double least_albedo = 0.8; ///< that samplers are made for, where it varies: below, shells carry little
-constexpr double albedo_step = 2; ///< of -log(albedo), where it varies
+// Where the albedo of a medium varies, there is a sampler at each step of a factor 2 in -log(albedo), down to the least
+// albedo; below that, shells carry little light.
+constexpr double least_albedo = 0.8;
+constexpr double albedo_step = 2;
 
-/// The albedos, growing, that records are drawn by in a medium of varying albedo: the last is not below any of it.
+/// The ascending albedos that records are drawn with in a medium of albedo low..high; the last is `high`.
 std::vector<double> sampled_albedos(double low, double high)
 {
     if (low == high) return {high};
@@ -37,7 +39,7 @@ MediumShells::MediumShells(std::shared_ptr<const Stf> stf, const HomogeneousMedi
     everywhere_.albedo = medium.albedo();
     everywhere_.sampled_albedo = max_component(medium.albedo());
     everywhere_.phase =
-        stfs_[0]->phase; // not the medium's: what light is weighed by is what the records were drawn from
+        stfs_[0]->phase; // not the medium's: light must be weighed by the function that records were drawn from
     add_samplers(*stfs_[0], everywhere_.sampled_albedo, count);
     bytes_ += stfs_[0]->bytes();
 }
@@ -118,7 +120,7 @@ bool MediumShells::fit_in_grid(const V3d& place, double clear, double u, Fitting
         if (above != stfs_.begin() && above != stfs_.end()) {
             const double g0 = stfs_[of]->phase.mean_cosine(), part = (g - g0) / ((*above)->phase.mean_cosine() - g0);
             if (u < part) ++of;
-            u = u < part ? u / part : (u - part) / (1 - part); // to be used again
+            u = u < part ? u / part : (u - part) / (1 - part); // rescaled to (0, 1), to be used again
         }
         fitting.phase = stfs_[of]->phase;
         const double brightest = max_component(fitting.albedo);

@@ -12,14 +12,14 @@ namespace scree {
 /// A shell around a place, and the medium in it.
 struct FittingShell {
     const ShellSampler* shell = nullptr; ///< null with the diffusion form
-    double length = 0; ///< radius
-    double radius = 0; ///< in mean free paths
+    double length = 0; ///< radius as a length
+    double radius = 0; ///< the paper's r: radius in mean free paths
     double sigma_t = 0;
     Weight albedo{1};
-    double sampled_albedo = 1; ///< that the shell's records are drawn by; no channel's is larger
-    PhaseFunction phase; ///< that its records were drawn from
+    double sampled_albedo = 1; ///< that the shell's records are drawn with; at least the albedo of every channel
+    PhaseFunction phase; ///< that the shell's records were drawn from
 
-    /// What a record of so many scatterings counts per channel, over what the sampled albedo's does.
+    /// The weight per channel of a record of `events` scatterings: (albedo / sampled_albedo)^events.
     Weight ratio(uint32_t events) const
     {
         const auto of = [&](double a) {
@@ -30,44 +30,46 @@ struct FittingShell {
     }
 };
 
-/// A ball in which a medium of grids is the same, and the shell that fits in it.
+/// A ball in which a grid medium is the same everywhere, within a tolerance, and the largest shell that fits in it.
 struct SameBall {
-    double length = 0; ///< radius
+    double length = 0; ///< radius as a length
     MediumMean mean;
-    size_t number = 0; ///< of the largest shell that is not larger
+    size_t number = 0; ///< of the largest shell that is not larger than the ball
 
-    /// Of that shell.
+    /// Radius of that shell, as a length.
     double radius() const { return std::min(length, Stf::radius(number) / mean.sigma_t); }
 };
 
-/// Finds a ball around a place, where nothing but the medium is within `clear`; false: none has room for a shell.
-/// count: of shells there are.
+/// Finds a ball around a place; false if none has room for a shell. clear: distance within which there is nothing but
+/// the medium. count: number of shells available.
 bool fit_ball(const MediumPyramid& medium, const V3d& place, double clear, size_t count, SameBall& ball);
 
-/// What light reaches a shell in a medium of grids from outside of a clear ball, `beyond` larger than it: how often
-/// light is to be looked for.
+/// Estimates the share of outside light that reaches a shell in a grid medium through `beyond`, the clear distance
+/// around the shell; light is sampled with this probability.
 ///
-/// The grid may be thinner there: then this is a guess, and must not be so low that the light it lets through counts
-/// for much.
+/// The grid may be thinner there, so this is a guess. It must not be too low: the light that does come through would
+/// then have a large weight.
 inline double light_reaching(double beyond, double sigma_t) { return std::max(0.1, std::exp(-sigma_t * beyond)); }
 
-/// The shells that light may go through in a medium, which is achromatic; safe to use from many threads.
+/// The shells that light may go through in a medium of achromatic sigma_t; safe to use from many threads.
 class MediumShells {
 public:
-    /// stf: of the medium's phase function (or, by form, of one that stands for it). count: of its shells to use.
+    /// stf: of the medium's phase function, or of the one that `form` replaces it by. count: number of its shells to
+    /// use.
     MediumShells(std::shared_ptr<const Stf> stf, const HomogeneousMedium& medium, size_t count, StfForm form);
-    /// stfs: of growing g, from the least to the largest in the medium; a shell where g is between two is of either, by
-    /// chance.
+    /// stfs: in ascending g, from the least to the largest in the medium; where g is between two, fit() picks one of
+    /// them at random.
     MediumShells(std::vector<std::shared_ptr<const Stf>> stfs, std::unique_ptr<const MediumPyramid> medium,
                  size_t count, StfForm form);
 
-    /// The largest shell around a place, where nothing but the medium is within `clear`. False: none fits. u: in (0,
-    /// 1), where the choice is left to chance.
+    /// Finds the largest shell around a place; false if none fits. clear: distance within which there is nothing but
+    /// the medium. u: random number in (0, 1), see needs_chance().
     bool fit(const V3d& place, double clear, double u, FittingShell& fitting) const;
 
-    /// Of the smallest ball that may hold a shell.
+    /// Radius, as a length, of the smallest ball that may hold a shell.
     double least_length() const;
     StfForm form() const { return form_; }
+    /// Whether fit() uses its random number.
     bool needs_chance() const { return grid_ || form_ == StfForm::interpolated; }
     uint64_t bytes() const { return bytes_; }
 
@@ -76,16 +78,17 @@ private:
     using Samplers = std::vector<ShellSampler>;
 
     bool fit_in_grid(const V3d& place, double clear, double u, FittingShell& fitting) const;
-    /// Puts in the shell of a number, or one as large as fits; radius: that fits, in mean free paths.
+    /// Sets the shell of a number, or in the interpolated form one of radius `radius`: the largest that fits, in mean
+    /// free paths.
     void choose(const Samplers& shells, size_t number, double radius, double u, FittingShell& fitting) const;
     void add_samplers(const Stf& stf, double albedo, size_t count);
 
     StfForm form_;
     uint64_t bytes_ = 0;
     std::vector<std::shared_ptr<const Stf>> stfs_;
-    std::vector<Samplers> samplers_; ///< by stf, and within by albedo
-    std::vector<double> albedos_; ///< that they are for, growing
-    FittingShell everywhere_; ///< of a homogeneous medium
+    std::vector<Samplers> samplers_; ///< by stf, and for each stf by albedo
+    std::vector<double> albedos_; ///< of samplers_, ascending
+    FittingShell everywhere_; ///< in a homogeneous medium: what does not depend on the place
     std::unique_ptr<const MediumPyramid> grid_;
 };
 

@@ -15,21 +15,21 @@ namespace scree {
 
 namespace {
 
-constexpr uint32_t walks = 64, most_walks = 1 << 14; ///< at a time and in all: some meet next to nothing
-constexpr uint64_t enough = 1 << 16; ///< scatterings of all walks
-constexpr uint32_t most_scatterings =
-    2048; ///< of a walk: the longest are cut short, which takes from what shells seem to save
+constexpr uint32_t walks = 64, most_walks = 1 << 14; // at a time and in all: some walks hardly scatter
+constexpr uint64_t enough = 1 << 16; // scatterings of all walks
+// Scatterings of one walk. The longest walks are cut short, so shells seem to save less than they do.
+constexpr uint32_t most_scatterings = 2048;
 
-// In scatterings that look for no light. With these work() is within 15 % (root mean square) of what shells made of the
-// time of 27 renderings: a cloud, and balls of constant, growing, waving and soft density, 20 to 600 mean free paths
-// through, under a sun and under a white sky. The variance of a path stays.
-constexpr double query_cost = 0.2, shell_cost = 4, light_cost = 1; ///< of light: of looking for it once
+// Costs in units of one scattering without light sampling. With them work() predicted how shells changed the time of 27
+// renderings to 15 % (root mean square): a cloud, and balls of constant, growing, waving and soft density, 20 to 600
+// mean free paths through, under a sun and under a white sky. Shells leave the variance of a path unchanged.
+constexpr double query_cost = 0.2, shell_cost = 4, light_cost = 1; // light: of sampling it once
 
 struct Ray {
     V3d o, d;
 };
 
-/// Into a box from its faces, as of diffuse light.
+/// A ray into a box from its faces, distributed like diffuse light.
 Ray enter(const Imath::Box3d& box, Sampler& sampler)
 {
     const V3d size = box.size(), areas(size.y * size.z, size.z * size.x, size.x * size.y);
@@ -50,7 +50,7 @@ Ray enter(const Imath::Box3d& box, Sampler& sampler)
     return ray;
 }
 
-/// How far it is from within a box to its faces.
+/// Distance along a ray from inside a box to its faces.
 double way_out(const Imath::Box3d& box, const Ray& ray)
 {
     double t = std::numeric_limits<double>::infinity();
@@ -80,7 +80,7 @@ ShellForecast forecast_shells(const Medium& medium, const MediumPyramid& pyramid
         SpectralState state;
         Ray ray = enter(box, sampler);
         V3d centre(0);
-        double radius = 0; // of the shell that the way is in, if in one
+        double radius = 0; // of the shell that the walk is in; 0: in none
         for (uint32_t events = 0; events < most_scatterings;) {
             const double out = way_out(box, ray);
             double end = out;

@@ -77,7 +77,7 @@ double CosineDistance::distance() const
 
 double CosineDistance::noise() const
 {
-    // Each bin's share is nearly normal; the mean of its magnitude is sqrt(2 / pi) of its standard deviation.
+    // The error of each bin's share is nearly normal: its mean magnitude is sqrt(2 / pi) of its standard deviation.
     return weights_ > 0 ? std::sqrt(2 / pi * (bins - 1) * squares_) / weights_ : 0;
 }
 
@@ -136,7 +136,7 @@ double DirectionMap::peak() const
 
 ShellMaps map_shell(const Stf& stf, size_t number, uint64_t walks, uint64_t seed, const Progress& progress)
 {
-    constexpr uint64_t blocks = 128; // whatever the number of threads
+    constexpr uint64_t blocks = 128; // fixed, so that the result does not depend on the number of threads
     constexpr uint32_t stream = 0x6d617073u;
     std::vector<ShellSampler> smaller;
     for (size_t i = 0; i < number; ++i) smaller.emplace_back(stf.shells[i], 1.0);

@@ -7,7 +7,7 @@
 
 namespace scree {
 
-/// How the squared cosines of directions to a normal are distributed: those of a cosine hemisphere are uniform.
+/// The distribution of the squared cosine between directions and a normal; it is uniform for a cosine hemisphere.
 class CosineDistance {
 public:
     static constexpr uint32_t bins = 16;
@@ -19,11 +19,11 @@ public:
         squares_ += weight * weight;
     }
     void add(const CosineDistance& other);
-    /// Of a bin; they sum to 1.
+    /// Share of a bin; all shares sum to 1.
     double share(uint32_t bin) const { return weights_ > 0 ? share_[bin] / weights_ : 0; }
     /// Sum of |share - 1 / bins|, 0 to 2.
     double distance() const;
-    /// What it would be in the mean for independent draws from a cosine hemisphere.
+    /// Mean of distance() for as many independent draws from a cosine hemisphere.
     double noise() const;
 
 private:
@@ -34,7 +34,7 @@ private:
 /// Directions about a shell's normal in cells of equal projected solid angle: the disc of their tangential components
 /// (x: along growing theta_t, y: across) mapped to the square by Shirley and Chiu's concentric map (1997).
 ///
-/// Mirror images in y are equal, as they are in a shell.
+/// Mirror images in y are averaged, because a shell has this symmetry.
 class DirectionMap {
 public:
     static constexpr uint32_t side = 24, cells = side * side; ///< x grows within a row of cells, y by the row
@@ -43,17 +43,17 @@ public:
     /// counts: by cell.
     explicit DirectionMap(const std::array<uint64_t, cells>& counts);
 
-    /// Of tangential components x, y within the unit disc.
+    /// The cell of tangential components x, y within the unit disc.
     static uint32_t cell(double x, double y);
     /// The middle of a cell on the disc.
     static V2d centre(uint32_t cell);
 
     uint64_t count() const { return count_; }
-    /// Per projected solid angle: a cosine hemisphere is 1 / pi everywhere.
+    /// Density per projected solid angle; 1 / pi everywhere for a cosine hemisphere.
     double density(uint32_t cell) const { return density_[cell]; }
-    /// The same between the cells' middles.
+    /// The same density, interpolated between the cells' middles.
     double density_at(double x, double y) const;
-    /// The largest per solid angle, over that of a cosine hemisphere.
+    /// The largest density per solid angle, over the largest of a cosine hemisphere.
     double peak() const;
 
 private:
@@ -61,22 +61,23 @@ private:
     std::array<double, cells> density_{};
 };
 
-/// Where light goes that leaves a shell after two scatterings and more, by the place it leaves at.
+/// Directions of light that leaves a shell after at least two scatterings, by the angle theta_t of the place where it
+/// leaves: the paper's p_s^{m, omega_s}.
 struct ShellMaps {
-    static constexpr uint32_t rows =
-        6; ///< bins of equal width of cos theta_t, from 1 down to -1: of equal area on the shell
+    /// Bins of equal width in cos theta_t, from 1 down to -1: of equal area on the shell.
+    static constexpr uint32_t rows = 6;
 
-    double radius = 0; ///< in mean free paths
-    uint64_t walks = 0; ///< that leave after two scatterings and more
+    double radius = 0; ///< the paper's r, in mean free paths
+    uint64_t walks = 0; ///< that leave after at least two scatterings
     double mean_cosine = 0; ///< to the normal
     CosineDistance distance;
     std::array<DirectionMap, rows> by_theta{};
 };
 
-/// Makes as many such walks, by those of the smaller shells of `stf`, which must be there; the same for any number of
+/// Maps one shell by new walks through the smaller shells of `stf`, which must be there; the same for any number of
 /// threads.
 ///
-/// number: of the shell. walks: 1 .. 2^32. Throws Cancelled.
+/// number: of the shell. walks: number of walks that leave after at least two scatterings, 1 .. 2^32. Throws Cancelled.
 ShellMaps map_shell(const Stf& stf, size_t number, uint64_t walks, uint64_t seed, const Progress& progress);
 
 } // namespace scree

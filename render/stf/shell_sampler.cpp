@@ -4,8 +4,8 @@ namespace scree {
 
 namespace {
 
-/// Weights times albedo^events, and the mean of that by weight: 1 where nothing is lost, whatever the weights' sum is
-/// rounded to.
+/// Weights times albedo^events. mean: the weighted mean of albedo^events, exactly 1 at albedo 1, however the sum of
+/// the weights is rounded.
 template <class Record>
 std::vector<double> weigh(const std::vector<Record>& records, const std::vector<float>& weights, double albedo,
                           double& mean)

@@ -41,7 +41,7 @@ public:
     }
 
 private:
-    /// Along the direction to the shell.
+    /// Distance along the direction to the shell.
     double distance_out() const
     {
         const double along = place_.dot(direction_), square = radius_ * radius_ - place_.length2();
@@ -55,7 +55,7 @@ private:
             place_ += r * direction_;
             return;
         }
-        // What scatters so deep that hardly any of it counts is looked at as seldom.
+        // Scatterings deep inside count little, so they are noted with an accordingly low probability.
         const double reached = std::exp(std::min(0.0, place_.length() + r - radius_));
         if (reached >= 1 || sampler_.next() < reached) note_one_of(shell, 1 / reached);
         const ShellFrame frame(direction_, sampler_.next());
@@ -68,13 +68,13 @@ private:
         events_ += exit.events;
     }
 
-    /// Notes one of a shell's scatterings for all of them.
+    /// Notes one of a shell's scatterings, with a weight that represents all of them.
     void note_one_of(const ShellSampler& shell, double weight)
     {
         const ShellFrame frame(direction_, sampler_.next());
         const ShellEvent& event = shell.event(sampler_.next());
         const V3d at = place_ + frame.to_world({event.aside, 0, event.along});
-        // The shell's scatterings are drawn by how close they are to its own surface.
+        // A smaller shell's scatterings are drawn by closeness to its own surface, not to this one's.
         weight *= shell.event_weight() * std::exp(at.length() - radius_) / shell.closeness(event);
         note(at, frame.to_world(V3d(event.direction)), events_ + event.events, weight);
     }

@@ -11,11 +11,11 @@ namespace scree {
 struct ShellWalk {
     ShellExit exit; ///< exit.events 0: it went straight through
     ShellEvent event; ///< one of its scatterings, drawn by closeness
-    double event_sum = 0; ///< of the closeness of all
+    double event_sum = 0; ///< sum of the closeness of all its scatterings
 };
 
-/// Walks in a shell of `radius` mean free paths. smaller: shells that the walk may use, of albedo 1 and growing radius,
-/// or none: then every scattering is simulated.
+/// Walks in a shell of `radius` mean free paths. smaller: shells that the walk may use, of albedo 1 and ascending
+/// radius; if empty, every scattering is simulated.
 ShellWalk walk_in_shell(const PhaseFunction& phase, double radius, std::span<const ShellSampler> smaller,
                         Sampler& sampler);
 

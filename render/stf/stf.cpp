@@ -16,7 +16,7 @@ int Stf::largest(double limit, size_t count)
 {
     if (!(limit >= 1) || count == 0) return -1;
     int k = static_cast<int>(std::min(std::floor(std::log2(limit) * steps_per_octave), static_cast<double>(count - 1)));
-    while (k >= 0 && radius(static_cast<size_t>(k)) > limit) --k; // what rounding did
+    while (k >= 0 && radius(static_cast<size_t>(k)) > limit) --k; // log2 may round up
     return k;
 }
 

@@ -8,17 +8,17 @@
 
 namespace scree {
 
-// Shell transport functions (Moon et al. 2007; Müller et al. 2016): what becomes of light that sets out from the centre
-// of a ball of a homogeneous medium. Lengths are in mean free paths; the light sets out along +z; places lie in the
-// plane of x and z, x not negative.
+// Shell transport functions (STF; Moon et al. 2007; f_s in Müller et al. 2016): how light leaves a ball of a
+// homogeneous medium when it starts at the centre x_c. Lengths are in mean free paths. The light starts along +z, the
+// paper's omega_c. Places lie in the plane of x and z, with x not negative.
 
-/// How a walk left a shell.
+/// How a walk left a shell: the place x_s and the direction omega_s in the paper.
 struct ShellExit {
-    float cos_t = 1; ///< of the angle theta_t between the axis and the place, seen from the centre
+    float cos_t = 1; ///< cosine of theta_t, the angle between the axis and the place, seen from the centre
     float away = 0; ///< component of the direction along growing theta_t
-    float across = 0; ///< and along y; the third, outwards, is not negative
-    float flight = 0; ///< length of the way since the last scattering
-    float cosine = 1; ///< of the last scattering's angle
+    float across = 0; ///< component along y; the third component, outwards, is not negative
+    float flight = 0; ///< distance since the last scattering
+    float cosine = 1; ///< of the angle of the last scattering
     uint32_t events = 0; ///< scatterings; at least 1
 };
 
@@ -29,21 +29,25 @@ struct ShellEvent {
     uint32_t events = 0; ///< scatterings up to here, this one counted; at least 1
 };
 
-/// Walks in a shell of one radius that scatter at least once, the part 1 - exp(-radius) of all; lossless, so that an
-/// albedo is a weight albedo^events.
+/// Walks in a shell of one radius that scatter at least once: the share 1 - exp(-radius) of all walks, the paper's
+/// 1 - alpha_s^0(r).
+///
+/// Walks are lossless: at an albedo below 1 a walk has the weight albedo^events. Exits of one event make up the paper's
+/// alpha_s^1, all others alpha_s^m and p_s^m.
 struct StfShell {
-    double radius = 0;
+    double radius = 0; ///< the paper's r
     std::vector<ShellExit> exits;
     std::vector<float> exit_weights; ///< sum to 1
-    std::vector<ShellEvent>
-        events; ///< scatterings of walks, drawn by their closeness(): where light from outside may reach them
+    /// Scatterings of walks, drawn by closeness(): near the surface, where light from outside may reach them.
+    std::vector<ShellEvent> events;
     std::vector<float> event_weights; ///< sum to 1
     double event_sum = 0; ///< mean over walks of the sum of closeness over their scatterings
 
+    /// exp(-depth below the surface).
     double closeness(const ShellEvent& event) const { return std::exp(std::hypot(event.along, event.aside) - radius); }
 };
 
-/// Shells of growing radius of one medium.
+/// Shells of ascending radius of one medium.
 class Stf {
 public:
     static constexpr int steps_per_octave = 2;
@@ -63,13 +67,13 @@ public:
     uint64_t bytes() const;
 };
 
-/// The axes of a shell around a way that goes on along `axis`: turned about it, and mirrored or not, as u in 0..1 has
-/// it.
+/// The axes of a shell whose light starts along `axis`; u in 0..1 chooses the turn about the axis, and whether the
+/// shell is mirrored.
 class ShellFrame {
 public:
     ShellFrame(const V3d& axis, double u) : frame_(axis), mirror_(u < 0.5 ? 1 : -1)
     {
-        const double phi = 4 * pi * u; // each mirror image has a whole turn
+        const double phi = 4 * pi * u; // each mirror image gets a whole turn
         cos_ = std::cos(phi);
         sin_ = std::sin(phi);
     }

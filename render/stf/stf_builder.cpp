@@ -31,7 +31,7 @@ std::vector<ShellWalk> walk_all(const PhaseFunction& phase, size_t shell, std::s
     return walks;
 }
 
-/// Sorts each run of `length`; equal keys by place, so that the order is one of the records alone.
+/// Sorts each run of `length`; equal keys by index, so that the order depends on the records alone.
 template <class Key>
 void sort_runs(std::vector<uint32_t>& order, size_t length, const Key& key)
 {
@@ -42,9 +42,10 @@ void sort_runs(std::vector<uint32_t>& order, size_t length, const Key& key)
     }
 }
 
-/// Keeps `count` of the records, evenly by their mass among those of a like number of events, a like place and a like
-/// direction; what leaves after few events is kept more often than by its mass (a quarter of all evenly over the
-/// logarithm of the quantile), as it counts for more where light is absorbed.
+/// Keeps `count` of the records, evenly by mass among records of similar number of events, place and direction.
+///
+/// Records of few events are kept more often than by mass (a quarter of all evenly over the logarithm of the quantile),
+/// because they count for more where light is absorbed.
 template <class Record, class Place, class Direction>
 void thin(const std::vector<Record>& records, const std::vector<double>& mass, uint32_t count, const Place& place,
           const Direction& direction, std::vector<Record>& kept, std::vector<float>& weights)
@@ -80,14 +81,14 @@ void thin(const std::vector<Record>& records, const std::vector<double>& mass, u
     for (float& w : weights) w = static_cast<float>(w / weight_sum);
 }
 
-constexpr double most_cut = 1.25; ///< sum of tilted weights: beyond, there are too few records to tell how to tilt
+constexpr double most_cut = 1.25; // largest sum of tilted weights; above it, too few records to find the tilt
 
-/// Tilts the weights of exits so that two means are exact, which the noise of walks puts off and larger shells would
-/// add up.
+/// Tilts the weights of exits so that two means are exact; the noise of walks makes them inexact, and larger shells
+/// would add up that error.
 ///
-/// Along any walk (1 - g) x + w (in mean free paths, w the direction) keeps its mean, and so does |x|^2 + 2 x.w / (1 -
-/// g) - 2 n / (1 - g) after n scatterings. So over all light from a centre (1 - g) R E[cos theta_t] + E[cos(w, axis)] =
-/// 1 and E[n] = (1 - g) R^2 / 2 + R E[cos(w, normal)].
+/// Along any walk the mean of (1 - g) x + w is constant (x the place in mean free paths, w the direction), and so is
+/// the mean of |x|^2 + 2 x.w / (1 - g) - 2 n / (1 - g) after n scatterings. So over all light from a centre (1 - g) R
+/// E[cos theta_t] + E[cos(w, axis)] = 1 and E[n] = (1 - g) R^2 / 2 + R E[cos(w, normal)].
 void calibrate(double g, StfShell& shell)
 {
     const double radius = shell.radius, straight = std::exp(-radius), scattered = -std::expm1(-radius);
@@ -95,7 +96,7 @@ void calibrate(double g, StfShell& shell)
                  growth = (0.5 * (1 - g) * radius * radius + straight * radius) / scattered;
     double cosine = 0, events = 0, out = 0;
     const size_t n = shell.exits.size();
-    std::vector<double> along(n), excess(n); // of the two sums that are known
+    std::vector<double> along(n), excess(n); // each exit's terms of the two known means
     for (size_t i = 0; i < n; ++i) {
         const ShellExit& exit = shell.exits[i];
         const ShellPlace there = place_of(exit);
@@ -120,10 +121,10 @@ void calibrate(double g, StfShell& shell)
     }
     const double determinant = a00 * a11 - a01 * a10;
     if (!(std::abs(determinant) > 1e-6 * (std::abs(a00 * a11) + std::abs(a01 * a10))))
-        return; // the records do not tell the two apart
+        return; // the records cannot separate the two tilts
     const double by_cosine = (b0 * a11 - b1 * a01) / determinant, by_events = (a00 * b1 - a10 * b0) / determinant;
     std::vector<double> tilted(n);
-    double sum = 0; // 1, unless some are cut off at 0: then the means are only nearer to what they should be
+    double sum = 0; // 1, unless some weights are cut off at 0: then the means are improved, but not exact
     for (size_t i = 0; i < n; ++i) {
         const double tilt =
             1 + by_cosine * (shell.exits[i].cos_t - cosine) + by_events * (shell.exits[i].events / events - 1);
@@ -170,7 +171,7 @@ std::vector<double> extend_stf(Stf& stf, size_t shells, const StfOptions& option
                          fmt::format("{} walks, {} records", options.walks, options.records),
                          "2^10 to 2^24 walks, 2^6 to 2^20 records");
     }
-    stf.shells.reserve(shells); // samplers point at them
+    stf.shells.reserve(shells); // samplers point at the shells, which must not move
     std::vector<ShellSampler> smaller;
     for (const StfShell& shell : stf.shells) smaller.emplace_back(shell, 1.0);
     std::vector<double> seconds;

@@ -8,10 +8,10 @@
 
 namespace scree {
 
-/// Shell transport functions by their phase function: those of this run, those kept in a folder, or new ones.
+/// Finds shell transport functions by their phase function: among those of this run, in a folder, or makes new ones.
 class StfCache {
 public:
-    /// folder: empty where nothing is to be kept for the next run.
+    /// folder: where they are kept for the next run; empty: they are not kept.
     explicit StfCache(std::filesystem::path folder, const StfOptions& options = {})
         : folder_(std::move(folder)), options_(options)
     {
@@ -19,11 +19,12 @@ public:
 
     struct Found {
         std::shared_ptr<const Stf> stf;
-        size_t computed = 0; ///< shells that were made now, the last of them
-        std::vector<double> seconds; ///< that each of those took
-        std::string remark; ///< why stored ones were not used, or could not be stored; may be empty
+        size_t computed = 0; ///< number of shells made now: the largest ones
+        std::vector<double> seconds; ///< that each of these took
+        std::string remark; ///< why stored shells were not used, or why shells could not be stored; may be empty
     };
-    /// At least `shells` shells of g, or of a table if there is one. Throws Cancelled.
+    /// At least `shells` shells of the phase function: the table if it is not null, else Henyey and Greenstein's of
+    /// mean cosine g. Throws Cancelled.
     Found find(double g, const std::shared_ptr<const PhaseTable>& table, size_t shells, const Progress& progress);
 
 private:

@@ -17,7 +17,7 @@ const std::vector<std::string> caption{"down: theta_t, degrees   across: radius 
                                        "cos: mean cosine to the normal; L1: of cos^2, from a cosine hemisphere's",
                                        "large shells shine as a half-space does from deep within (Milne): cos 0.7104"};
 
-/// Where everything stands.
+/// Positions of the figure's parts, in pixels.
 struct Layout {
     int scale, margin, line;
     int left, top, pitch, gap; // of the discs
@@ -38,7 +38,7 @@ struct Layout {
     int column_left(int column) const { return left + column * pitch; }
 };
 
-/// density: per solid angle, by the components of the direction along growing theta_t and across, of 1 at its peak.
+/// density: per solid angle, 1 at its peak; x and y: components of the direction along growing theta_t and across.
 void draw_disc(Picture& picture, int left, int top, int pitch, const std::function<double(double x, double y)>& density)
 {
     const double radius = 0.5 * pitch - 1;
@@ -82,7 +82,7 @@ void draw_rows(Picture& picture, const Layout& l)
     picture.draw_text(l.margin, below + l.line, "L1", figure_faint, l.scale);
 }
 
-/// The cosine hemisphere, and what the colours mean.
+/// The cosine hemisphere, and the colour scale.
 void draw_reference(Picture& picture, int columns, const Layout& l)
 {
     const int left = l.column_left(columns) + l.gap, middle = left + l.pitch / 2;

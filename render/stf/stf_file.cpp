@@ -13,7 +13,7 @@ static_assert(sizeof(ShellExit) == 24 && sizeof(ShellEvent) == 24);
 
 constexpr std::array<char, 8> magic{'S', 'C', 'R', 'E', 'E', 'S', 'T', 'F'};
 const std::string what = "shell transport functions";
-constexpr uint32_t version = 4; // also of what the numbers mean: count up when any of that changes
+constexpr uint32_t version = 4; // of the format and of the numbers' meaning: increase it when either changes
 
 struct FileHead {
     std::array<char, 8> magic{};
@@ -22,7 +22,7 @@ struct FileHead {
     uint64_t checksum = 0; // of the shells
 };
 
-/// Before each shell's exits, exit weights, events and event weights.
+/// Stands before each shell's exits, exit weights, events and event weights.
 struct ShellHead {
     double radius = 0, event_sum = 0;
     uint64_t exits = 0, events = 0;
@@ -69,17 +69,17 @@ void read_stf(const std::filesystem::path& file, uint64_t key, Stf& stf)
 {
     TableFileReader reader(file, what);
     const auto head = reader.read<FileHead>();
-    if (head.magic != magic) throw reader.refuse("something else");
-    if (head.version != version) throw reader.refuse("another version");
+    if (head.magic != magic) throw reader.refuse("a file of another kind");
+    if (head.version != version) throw reader.refuse("a file of another version");
     if (head.key != key) throw reader.refuse("shells of another medium");
     std::vector<StfShell> shells;
     uint64_t checksum = version;
     for (uint32_t i = 0; i < head.shells; ++i) {
         const auto of_shell = reader.read<ShellHead>();
-        constexpr uint64_t most = uint64_t{1} << 20; // as the builder's
+        constexpr uint64_t most = uint64_t{1} << 20; // the builder's limit
         if (of_shell.exits == 0 || of_shell.events == 0 || of_shell.exits > most || of_shell.events > most ||
             of_shell.radius != Stf::radius(i))
-            throw reader.refuse("a damaged file: a shell that cannot be");
+            throw reader.refuse("a damaged file: an impossible shell");
         StfShell shell;
         shell.radius = of_shell.radius;
         shell.event_sum = of_shell.event_sum;

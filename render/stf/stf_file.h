@@ -6,11 +6,11 @@
 
 namespace scree {
 
-/// Writes shells so that they appear whole or not at all. key: of what they are; see stf_cache.h. Throws InputError.
+/// Writes shells, whole or not at all. key: what identifies them, see StfCache. Throws InputError.
 void write_stf(const std::filesystem::path& file, const Stf& stf, uint64_t key);
 
-/// Reads them into an Stf of the same phase function. Throws InputError for a file that is damaged, of another version
-/// or another key.
+/// Reads shells into `stf`, which must have their phase function. Throws InputError for a file that is damaged, of
+/// another version or of another key.
 void read_stf(const std::filesystem::path& file, uint64_t key, Stf& stf);
 
 } // namespace scree

@@ -67,7 +67,7 @@ nlohmann::json figure_json(const StfReport::Figure& figure)
                           {"from_cosine_hemisphere", distance_json(shell.distance)},
                           {"maps", maps}});
     }
-    // A cell by the tangential components of the direction in its middle: along growing theta_t, and across.
+    // A cell is given by the tangential components of its middle direction: along growing theta_t, and across.
     return {{"file", figure.file}, {"cells", cells}, {"shells", shells}};
 }
 

@@ -9,31 +9,30 @@
 
 namespace scree {
 
-/// What a shell does to light that sets out from its centre; shares are of all light, at albedo 1 unless said
-/// otherwise.
+/// How a shell scatters light that starts at its centre; shares are of all light, at albedo 1 unless said otherwise.
 struct ShellNumbers {
-    double radius = 0; ///< in mean free paths
-    double unscattered = 0, single = 0, multiple = 0;
-    double single_left = 0, multiple_left = 0, absorbed = 0; ///< at the albedo asked for; as much goes straight through
+    double radius = 0; ///< the paper's r, in mean free paths
+    double unscattered = 0, single = 0, multiple = 0; ///< alpha_s^0, alpha_s^1 and alpha_s^m in the paper, at albedo 1
+    double single_left = 0, multiple_left = 0, absorbed = 0; ///< at the albedo asked for; `unscattered` is the same
     double scatterings = 0; ///< mean number
     double cos_t = 0; ///< mean cosine of theta_t
-    double straight = 0; ///< mean cosine between the ways in and out
-    double mean_cosine = 0; ///< to the normal, after two scatterings and more
-    CosineDistance distance; ///< of the same
+    double straight = 0; ///< mean cosine between the first and the last direction
+    double mean_cosine = 0; ///< to the normal, after at least two scatterings
+    CosineDistance distance; ///< after at least two scatterings
     uint64_t records = 0;
 };
 ShellNumbers shell_numbers(const StfShell& shell, double albedo);
 
-/// The shells of a phase function, found, and what to say of them.
+/// The shells of one phase function, and what to report about them.
 struct StfReport {
     std::string name; ///< of the grain, or g=...
     std::optional<GsdfSubject> grain; ///< whose phase function it is
-    double gsdf_error = 0; ///< of the grain's GSDF, relative, of the density of directions
+    double gsdf_error = 0; ///< relative error of the directional density of the grain's GSDF
     std::shared_ptr<const Stf> stf;
     double albedo = 1;
-    uint64_t walks = 0; ///< a shell, that scatter
+    uint64_t walks = 0; ///< per shell, that scatter
     std::vector<ShellNumbers> shells;
-    std::vector<double> seconds; ///< that each shell took, 0 from the cache
+    std::vector<double> seconds; ///< that each shell took; 0 for a shell from the cache
     std::string remark;
 
     struct Figure {
@@ -43,11 +42,11 @@ struct StfReport {
     std::optional<Figure> figure;
 };
 
-/// The line of names over the lines of shells, and such a line.
+/// The table's line of column names, and the line of one shell.
 std::string stf_table_head(double albedo);
 std::string stf_table_line(const StfReport& report, size_t shell);
 
-/// Everything in numbers, with the maps of the figure: an array, an object a phase function.
+/// All numbers as JSON, with the maps of the figure: an array of one object per phase function.
 std::string stf_json(const std::vector<StfReport>& reports);
 
 } // namespace scree

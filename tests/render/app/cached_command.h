@@ -11,7 +11,7 @@
 
 namespace scree::test {
 
-/// A test of the built program with a folder and a cache of its own.
+/// A test of the built program, with its own folder and its own cache.
 class CachedCommand : public testing::Test {
 protected:
     CachedCommand()

@@ -1,4 +1,4 @@
-// `scree grains` as a user meets it: the built program, its exit codes, messages and files.
+// `scree grains` as a user sees it: the built program, its exit codes, messages and files.
 
 #include "ingest/meshes/triangle_mesh.h"
 #include "render/grains/library/grain_library.h"
@@ -78,7 +78,7 @@ TEST_F(GrainsCommand, ExportsTheSameMeshToEveryFormat)
         const TriangleMesh read = read_mesh(file);
         ASSERT_EQ(read.triangles.size(), mesh.triangles.size()) << extension;
         EXPECT_TRUE(is_closed_and_oriented(read)) << extension;
-        if (extension == "stl") { // has floats, and no shared vertices: they are merged in another order
+        if (extension == "stl") { // has floats and no shared vertices, so vertices are merged in another order
             EXPECT_NEAR(signed_volume(read), signed_volume(mesh), 1e-6);
         } else {
             EXPECT_EQ(read.triangles, mesh.triangles) << extension;
@@ -100,7 +100,7 @@ TEST_F(GrainsCommand, ShowsASheet)
 }
 
 struct Wrong {
-    std::vector<std::string> arguments; ///< PATH stands for the folder
+    std::vector<std::string> arguments; ///< PATH is replaced by the folder
     std::string message;
 };
 

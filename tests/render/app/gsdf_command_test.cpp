@@ -1,4 +1,4 @@
-// `scree grains gsdf` as a user meets it: the built program, its exit codes, messages, files and cache.
+// `scree grains gsdf` as a user sees it: the built program, its exit codes, messages, files and cache.
 
 #include "tests/builders/scene_files.h"
 #include "tests/builders/scree_process.h"
@@ -33,7 +33,7 @@ protected:
         EXPECT_EQ(run.status, 0) << run.err;
         return json::parse(run.out);
     }
-    /// Fails with status 2, says all of these, and leaves nothing.
+    /// Expects status 2, all these texts in the message, and no files.
     void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& said)
     {
         const ProgramRun run = gsdf(arguments);
@@ -84,7 +84,7 @@ TEST_F(GsdfCommand, TracesAgainForAnotherError)
 
 TEST_F(GsdfCommand, TellsTheTruthInNumbers)
 {
-    // Mean cosines of spheres: geometric optics, and -4/9 of the Lambert sphere.
+    // Mean cosines of spheres: by geometric optics, and -4/9 for the Lambert sphere.
     const std::vector<std::pair<std::vector<std::string>, double>> cases{
         {{"sphere"}, 0.65009},
         {{"sphere", "--ior", "1.31"}, 0.78166},
@@ -144,8 +144,8 @@ TEST_F(GsdfCommand, ReadsMeshesAndWritesJsonFiles)
     const json list = json::parse(read_bytes(path("out.json")));
     ASSERT_EQ(list.size(), 2u);
     EXPECT_EQ(list[0].at("name"), mesh);
-    // Alone, alpha0 of a convex body is 1 - its mean shadow (a fourth of its surface) over pi: the box of edge 2 /
-    // sqrt(3).
+    // The mean alpha0 of a convex body is 1 - its mean shadow (a quarter of its surface) over pi: here a cube of edge
+    // 2 / sqrt(3).
     const double truth = 1 - 2 / std::numbers::pi, paths = list[0].at("paths");
     EXPECT_NEAR(list[0].at("mean_alpha0").get<double>(), truth, 4 * std::sqrt(truth * (1 - truth) / paths));
     EXPECT_EQ(gsdf_json({mesh})[0].at("traced"), false);
@@ -271,7 +271,7 @@ TEST_F(GsdfCommand, DrawsTheErrorMaps)
     for (const char* kind : {"direction", "full"}) {
         for (const char* form : {"gsdf", "factored", "hg", "isotropic"})
             EXPECT_GT(forms.at(form).at(kind).get<double>(), 0) << form;
-        // The GSDF's own error is 20 % at most; the forms without its directions are further off.
+        // The GSDF's own error is at most 20 %; the isotropic form, which lacks its directions, has a larger error.
         EXPECT_LT(forms.at("gsdf").at(kind).get<double>(), std::hypot(0.2, noise.at(kind).get<double>()));
         EXPECT_GT(forms.at("isotropic").at(kind).get<double>(), 1);
     }

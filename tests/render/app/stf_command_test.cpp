@@ -1,4 +1,4 @@
-// `scree grains stf` as a user meets it: the built program, its exit codes, messages, files and cache.
+// `scree grains stf` as a user sees it: the built program, its exit codes, messages, files and cache.
 
 #include "tests/builders/scree_process.h"
 #include "tests/render/app/cached_command.h"
@@ -49,7 +49,7 @@ TEST_F(StfCommand, PartsOfLightSumToAllOfIt)
             EXPECT_NEAR(unscattered + dim["single"].get<double>() + dim["multiple"].get<double>() +
                             dim["absorbed"].get<double>(),
                         1, 1e-5);
-            // What walks keep in the mean (stf_builder.cpp).
+            // A mean that is constant along walks, see calibrate() in stf_builder.cpp.
             const double g = medium["phase_function"]["mean_cosine"];
             EXPECT_NEAR((1 - g) * radius * shell["mean_cosine_theta_t"].get<double>() +
                             shell["mean_cosine_in_out"].get<double>(),

@@ -1,5 +1,5 @@
-// What a picture file holds: channels, windows, metadata, auxiliary values by hand, variance, filters, and whole files
-// only.
+// The contents of picture files: channels, windows, metadata, auxiliary values against values computed by hand,
+// variance and filters; files appear whole or not at all.
 
 #include "base/error.h"
 #include "base/sampler.h"
@@ -275,7 +275,8 @@ TEST(Aov, OfSpheresAreAsByHand)
     for (const int count : seen) EXPECT_GT(count, 30);
 }
 
-// Depth is along the view, not along the ray: of a wall square to the view it is one number, with a lens too.
+// Depth is along the view, not along the ray: for a wall square to the view it is the same everywhere, also with a
+// lens.
 TEST(Aov, DepthIsAlongTheView)
 {
     const TemporaryFolder folder;
@@ -315,7 +316,7 @@ TEST(Aov, DepthIsAlongTheView)
     }
 }
 
-// At the edge of a grain means are over what was hit, and albedo over all samples.
+// At the edge of a grain, depth and normal are means over the samples that hit it, and albedo over all samples.
 TEST(Aov, AreMeansOverSamples)
 {
     const TemporaryFolder folder;
@@ -334,7 +335,7 @@ TEST(Aov, AreMeansOverSamples)
     EXPECT_EQ(picture.integers.at("samples")[0], 40000u);
 }
 
-// The variance channel is that of the pixel's mean: its expectation is the scatter of the means over seeds.
+// The variance channel is the variance of the pixel's mean: its expectation is the variance of the means over seeds.
 TEST(Aov, VarianceIsThatOverSeeds)
 {
     const TemporaryFolder folder;

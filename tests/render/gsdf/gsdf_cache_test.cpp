@@ -1,4 +1,4 @@
-// Where precomputed scattering is kept: one computation serves every colour, absorption and size; damage is noticed.
+// The cache of precomputed scattering: one computation serves every colour, absorption and size; damage is noticed.
 
 #include "base/error.h"
 #include "render/gsdf/gsdf_cache.h"

@@ -1,4 +1,4 @@
-// The scattering of a grain averaged over its rotations: against exact truths, and sampling against its density.
+// The scattering of a grain averaged over its rotations (GSDF), against exact values, and sampling against its density.
 
 #include "base/warp.h"
 #include "render/gsdf/gsdf_builder.h"
@@ -20,7 +20,7 @@ std::shared_ptr<const Exemplar> exemplar_of(const TriangleMesh& mesh)
     return std::make_shared<Exemplar>(device, mesh, "test mesh");
 }
 
-/// A cube without one of its corners: no mirror image of itself, and not round at all.
+/// The corner of a box: not symmetric under reflection, and far from round.
 TriangleMesh chipped()
 {
     TriangleMesh mesh;
@@ -36,7 +36,7 @@ Material metal()
     return material;
 }
 
-/// Mean and standard error of the cosine over the records, as often as their cells are drawn.
+/// Mean and standard error of the cosine over records that are drawn as in rendering.
 Estimate cosine_of_records(const Gsdf& gsdf, uint32_t draws)
 {
     Estimate cosine;
@@ -62,7 +62,7 @@ TEST(Gsdf, SphereHasTheExactMeanCosine)
         EXPECT_TRUE(gsdf->always_met());
         EXPECT_EQ(gsdf->mean_alpha0(), 0);
         EXPECT_LT(std::abs(quality.mean_cosine - truth), 4 * quality.mean_cosine_error);
-        // What sampling gives: its own noise and that of the paths behind it.
+        // The sampled mean has its own noise and the noise of the traced paths.
         const Estimate drawn = cosine_of_records(*gsdf, 2000000);
         EXPECT_LT(std::abs(drawn.mean() - truth), 4 * std::hypot(drawn.standard_error(), quality.mean_cosine_error));
         EXPECT_LT(std::abs(gsdf->mean_cosine() - truth), 1e-3);
@@ -72,8 +72,8 @@ TEST(Gsdf, SphereHasTheExactMeanCosine)
     }
 }
 
-// Cauchy: a convex body shows a quarter of its surface on average, so light from afar misses it with 1 - S / (4 pi) of
-// the bounding sphere's cross-section. A cube in the unit sphere has S = 8.
+// Cauchy: the mean shadow of a convex body is a quarter of its surface S, so light from far away misses it with
+// probability 1 - S / (4 pi) in the unit bounding sphere. A cube in the unit sphere has S = 8.
 TEST(Gsdf, MissesAsOftenAsTheMeanShadowSays)
 {
     const auto body = exemplar_of(cube());
@@ -81,7 +81,7 @@ TEST(Gsdf, MissesAsOftenAsTheMeanShadowSays)
     const double truth = 1 - 8 / (4 * pi);
     const auto n = static_cast<double>(gsdf->data().quality.paths);
     EXPECT_LT(std::abs(gsdf->mean_alpha0() - truth), 4 * std::sqrt(truth * (1 - truth) / n)) << gsdf->mean_alpha0();
-    EXPECT_GT(gsdf->alpha0(1), 0.9); // the corners alone reach the sphere
+    EXPECT_GT(gsdf->alpha0(1), 0.9); // only the corners reach the sphere
     EXPECT_LT(gsdf->alpha0(0), 1e-3);
 }
 
@@ -124,7 +124,7 @@ void EveryGsdf::loses_nothing() const
     for (uint32_t i = 0; i < gsdf_->data().records.size(); ++i) ASSERT_EQ(gsdf_->weight(i, white, 1), Color(1));
 }
 
-// What next-event estimation takes for the density is what sampling samples, cell by cell.
+// The density that next-event estimation uses is the density of sampling, cell by cell.
 void EveryGsdf::sampling_follows_its_density() const
 {
     int strata = 0;
@@ -178,8 +178,8 @@ void EveryGsdf::density_integrates_to_the_mass_of_cells() const
     }
 }
 
-// Independent paths fall as the density says: over cells of 8 x 8, in strata apart from each other, against the paths'
-// own noise and the error the GSDF states.
+// Independent paths are distributed as the density says, in blocks of 8 x 8 cells of each stratum, within the paths'
+// own noise and the error that the GSDF states.
 void EveryGsdf::states_its_error_honestly() const
 {
     std::vector<double> found(static_cast<size_t>(Gsdf::strata) * Gsdf::cells);
@@ -235,7 +235,8 @@ INSTANTIATE_TEST_SUITE_P(Types, EveryGsdf,
                                          GsdfCase{"white chip", lambert(1), false},
                                          GsdfCase{"metal chip", metal(), false}));
 
-// Length and events of records: the mean transmission of an absorbing sphere against paths that absorb on their way.
+// Length and events of records: the mean transmission of an absorbing sphere against paths that are absorbed one by
+// one.
 TEST(Gsdf, AbsorptionByLengthIsThatOfTheWay)
 {
     const auto gsdf = build_gsdf({nullptr, dielectric(1.5)}, {0.05});
@@ -258,7 +259,7 @@ TEST(Gsdf, AbsorptionByLengthIsThatOfTheWay)
         }
     }
     for (int c = 0; c < 3; ++c) {
-        // 18,000 records stand for all paths: their own error is a few times 1e-4.
+        // 18,000 records represent all paths: the records' own error is a few times 1e-4.
         const double error = std::hypot(records[c].standard_error(), walked[c].standard_error(), 3e-4);
         EXPECT_LT(std::abs(records[c].mean() - walked[c].mean()), 4 * error)
             << c << ": " << records[c].mean() << " " << walked[c].mean();

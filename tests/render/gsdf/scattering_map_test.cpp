@@ -1,4 +1,4 @@
-// Maps of scattering and what forms of it miss, on cases with known answers.
+// Scattering maps and the errors of simpler forms, on cases with known answers.
 
 #include "render/gsdf/gsdf_builder.h"
 #include "render/gsdf/map_errors.h"
@@ -75,8 +75,8 @@ TEST(ScatteringMap, CellsAreWhereTheirAnglesSay)
             EXPECT_EQ(Map::cell_of(q, exit, w), turn * Map::directions + d);
         }
     }
-    // Straight on the direction is omega_o itself and the exit lies in its plane; at the entry the plane is that as
-    // well.
+    // For light that goes straight on, omega_i is omega_o and the exit lies in the plane of incidence; for an exit at
+    // the entry, that plane is used as well.
     const uint32_t straight = static_cast<uint32_t>(std::acos(c) / pi * Map::polar) * Map::azimuths;
     EXPECT_EQ(Map::cell_of(q, V3d(b, 0, c), V3d(0, 0, 1)), straight);
     EXPECT_EQ(Map::cell_of(q, entry, V3d(0, 0, 1)), straight);
@@ -93,7 +93,7 @@ TEST(MapErrors, AProductIsWhatTheFactoredFormKnows)
     EXPECT_NEAR(form(errors, "gsdf").full, 0, 1e-12);
     EXPECT_NEAR(form(errors, "factored").full, 0, 1e-12);
     EXPECT_NEAR(form(errors, "factored").direction, 0, 1e-12);
-    // Isotropic: the mean of |cos| / 2 over 24 azimuths; together with the turns not less.
+    // Isotropic: the error is the mean of |cos| / 2 over 24 azimuths; together with the turns it is not less.
     double expected = 0;
     for (uint32_t i = 0; i < Map::azimuths; ++i)
         expected += 0.5 * std::abs(std::cos(2 * pi * i / Map::azimuths)) / Map::azimuths;
@@ -119,7 +119,7 @@ TEST(MapErrors, FindsTheParameterOfHenyeyAndGreenstein)
 {
     const double g = 0.6;
     const auto directions = [&](uint32_t row) {
-        // By sampling the form itself; uniform in q within the row.
+        // By sampling the form itself, uniformly in q within the row.
         std::vector<double> masses(Map::directions);
         constexpr int n = 400'000;
         Sampler sampler(5, row, 0, 0);
@@ -136,7 +136,7 @@ TEST(MapErrors, FindsTheParameterOfHenyeyAndGreenstein)
     const Map truth = product_map(std::vector<double>(Map::turns, 1.0 / Map::turns), directions);
     const MapErrors errors = map_errors(truth, exactly(truth));
     for (const double found : errors.hg_g) EXPECT_NEAR(found, g, 0.011); // two steps of the search
-    // Counting makes sqrt(2 K / (pi n)) of K = 384 cells: 2.5 %, less where cells are unlike.
+    // Counting over K = 384 cells has an error of sqrt(2 K / (pi n)): 2.5 %, less where cells are unlike.
     EXPECT_LT(form(errors, "hg").direction, 0.03);
     EXPECT_GT(form(errors, "isotropic").direction, 0.5);
 }
@@ -151,7 +151,7 @@ TEST(BruteForceMaps, AreTheSameOnAnyNumberOfThreads)
     EXPECT_EQ(masses(1), masses(3));
 }
 
-/// A sphere's GSDF beside brute force.
+/// The errors of a sphere's GSDF and of simpler forms against brute force.
 MapErrors errors_of_sphere(const Material& material)
 {
     const GrainBody body{nullptr, material};
@@ -175,18 +175,18 @@ TEST(MapErrors, OfALambertSphere)
     // independent.
     EXPECT_LT(errors.noise.full, 0.05);
     EXPECT_LT(form(errors, "gsdf").full, std::hypot(errors.noise.full, 0.03));
-    // All light leaves where it came in: no uniform place is right, and half of the directions are wrong.
+    // All light leaves where it came in, so a uniform place is wrong, and so is half of the directions.
     EXPECT_GT(form(errors, "isotropic").full, 1.7);
     EXPECT_GT(form(errors, "isotropic").direction, 1);
     EXPECT_GT(form(errors, "hg").direction, 0.2);
-    // There is nothing else to correlate with.
+    // The place is always the same, so there is no correlation to lose.
     EXPECT_LT(form(errors, "factored").full, std::hypot(errors.noise.full, 0.07));
 }
 
 TEST(MapErrors, OfAGlassSphere)
 {
-    // One direction for each number of reflections: strata of impacts smear it by some degrees, which these cells
-    // resolve.
+    // There is one direction for each number of reflections. Strata of impacts smear it by some degrees, which these
+    // cells resolve.
     const MapErrors errors = errors_of_sphere(glass(1.5));
     EXPECT_LT(errors.noise.full, 0.05);
     EXPECT_LT(form(errors, "gsdf").full, 0.5 * form(errors, "hg").full);

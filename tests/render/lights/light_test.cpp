@@ -1,4 +1,4 @@
-// Every light's sampler against its density, cell by cell, as next-event estimation uses both.
+// Every light's sampler against its density, cell by cell, because next-event estimation uses both.
 
 #include "base/sampler.h"
 #include "render/lights/light.h"
@@ -58,7 +58,7 @@ Light environment()
     return light;
 }
 
-/// Along a direction: distance to the light, or a negative number where it is missed.
+/// Distance to the light along a direction, or a negative number if it is missed.
 double distance_to(const Light& light, const V3d& p, const V3d& d)
 {
     if (light.is_infinite()) return 1;
@@ -133,7 +133,7 @@ TEST(Light, SamplesItsDensity)
             inside += expected[static_cast<size_t>(cell)];
         }
         expected.back() = std::max(0.0, n - inside);
-        // A rectangle may reach beyond the cap; what does is one more cell. For the others nothing is left.
+        // A rectangle may reach beyond the cap; all directions outside are one more cell. Other lights fit in the cap.
         EXPECT_TRUE(light.kind == LightKind::rectangle || std::abs(n - inside) < 0.01 * n) << name << " " << inside / n;
         const ChiSquare test = chi_square(observed, expected);
         EXPECT_GT(test.p_value, sidak(0.001, static_cast<int>(lights.size()))) << name << ": " << test.text;
@@ -145,7 +145,7 @@ TEST(Light, ManyAreChosenAsTheyAreWeighed)
     const LightSet set(
         {rectangle({-0.5, -0.6, 1.5}, {1, 0, 0}, {0, 1.3, 0}), sphere({3, 0, 0}, 0.5), distant(1), environment()}, 1.0);
     const V3d p(0);
-    // The mean of radiance / pdf over samples is the irradiance-like integral: the sum over the lights one by one.
+    // The mean of radiance / pdf over samples is the integral of radiance, which is the sum over the single lights.
     Estimate all;
     Sampler sampler(4, 0, 0, 0);
     const auto sample = [&](const LightSet& lights) {

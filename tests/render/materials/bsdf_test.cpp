@@ -1,5 +1,5 @@
-// Every BSDF's sampler against its density, and the rough ones against their own evaluation: what a microsurface walk
-// draws must be distributed as what its estimator integrates to, and nothing may be lost.
+// Every BSDF's sampler against its density, and the rough ones against their own evaluation: the directions that a
+// microsurface walk draws must be distributed as its estimator says, and no energy may be lost.
 
 #include "base/warp.h"
 #include "render/materials/bsdf.h"
@@ -79,7 +79,7 @@ std::vector<RoughCase> rough_cases()
 }
 
 // The walk's sampler (weighted) against its estimator over the sphere: two-sample chi-square, 256 cells, 150,000 draws
-// each. A single cell wrong by 10 % at 1,000 counts, or the whole by 1 %, is found.
+// each. It finds an error of 10 % in a single cell of 1,000 counts, or of 1 % in the whole.
 TEST(Rough, SamplesWhatItEvaluates)
 {
     const auto cases = rough_cases();
@@ -119,8 +119,8 @@ TEST(Rough, SamplesWhatItEvaluates)
     }
 }
 
-// Narrow lobes: within a cell the estimates are too unevenly spread for chi-square's normal errors, but the share of
-// each hemisphere can be held against their integral. Standard error below 0.015 of the whole.
+// Narrow lobes: within a cell the estimates are too uneven for the normal errors that chi-square needs, but the share
+// of each hemisphere can be compared with their integral. The standard error is below 0.015 of the whole.
 TEST(Rough, NarrowLobesShareTheHemispheresAsTheyEvaluate)
 {
     Sampler sampler(8, 0, 0, 0);

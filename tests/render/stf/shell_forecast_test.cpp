@@ -1,4 +1,4 @@
-// Whether shells pay in a medium of grids, as walks foresee it.
+// The forecast, by walks, of whether shells save work in a grid medium.
 
 #include "render/stf/shell_forecast.h"
 
@@ -26,7 +26,7 @@ double fractal(int i, int j, int k)
     return std::exp(4 * sum);
 }
 
-/// Of a cube, from -size to size. sigma_t: about, of a mean free path of size 1; times the density.
+/// The forecast for a cube from -size to size. sigma_t: for size 1, where the density is 1.
 ShellForecast forecast(const std::function<double(int, int, int)>& density, double sigma_t, double size = 1)
 {
     const double h = 2 * size / (n - 1);
@@ -59,7 +59,7 @@ TEST(ShellForecast, KeepsShellsWhereAThickMediumIsSmooth)
     EXPECT_GT(found.part(), 0.6);
     EXPECT_GT(found.each(), 3);
     EXPECT_LT(found.work(true), 0.6);
-    EXPECT_LT(found.work(false), 0.95) << "where no light is looked for a scattering is cheap";
+    EXPECT_LT(found.work(false), 0.95) << "a scattering is cheap where no light is sampled";
     EXPECT_GT(found.work(false), found.work(true));
 }
 

@@ -1,4 +1,4 @@
-// How shell transport functions are made, also from few walks, and kept.
+// How shell transport functions are made, also from few walks, and how they are kept.
 
 #include "base/error.h"
 #include "render/stf/stf_cache.h"
@@ -18,8 +18,8 @@ using namespace test;
 
 TEST(StfBuilder, WeightsSumToOneHoweverFewTheRecords)
 {
-    // At this g a rare walk is turned by much. Where only few records hold such a one, the tilt that would put both
-    // means right takes more than all from others.
+    // At this g a walk rarely turns by a large angle. Where only few records have such a turn, the tilt that would make
+    // both means exact gives other records a negative weight.
     uint64_t cut = 0;
     for (uint64_t seed = 1; seed <= 20; ++seed) {
         StfOptions options;
@@ -39,7 +39,7 @@ TEST(StfBuilder, WeightsSumToOneHoweverFewTheRecords)
         }
     }
     EXPECT_GT(cut, 5u);
-    for (const double g : {-0.999999, 0.999999, 1 - 1e-12}) { // hardly two records that differ
+    for (const double g : {-0.999999, 0.999999, 1 - 1e-12}) { // almost all records are equal
         StfOptions options;
         options.walks = 1 << 10;
         options.records = 1 << 6;

@@ -1,4 +1,4 @@
-// Shell transport functions against walks whose every scattering is simulated, against quadrature, and in themselves.
+// Shell transport functions against walks that simulate every scattering, against quadrature, and for consistency.
 
 #include "base/error.h"
 #include "render/stf/shell_walk.h"
@@ -11,7 +11,7 @@
 namespace scree {
 namespace {
 
-/// Made once for all tests of a program.
+/// Shells that are made once for all tests of a program.
 std::shared_ptr<const Stf> shells_of(double g, size_t count)
 {
     static StfCache cache{{}};
@@ -35,8 +35,8 @@ struct Case {
 };
 const std::vector<Case> cases{{0, 0}, {0, 3}, {0, 6}, {0, 10}, {0.8, 2}, {0.8, 8}, {-0.5, 6}, {0.95, 9}};
 
-/// Part of the light that scatters once: int_0^R exp(-t) int p(mu) exp(-d(t, mu)) dmu dt by midpoints, where d is the
-/// way from there to the shell.
+/// Share of the light that scatters once: int_0^R exp(-t) int p(mu) exp(-d(t, mu)) dmu dt by midpoints, where d is the
+/// distance from the scattering to the shell.
 double single_part(double g, double radius)
 {
     constexpr int n = 1500;
@@ -69,7 +69,7 @@ TEST(Stf, ScattersNeverOnceAndMoreOftenAsQuadratureHasIt)
             EXPECT_LT(std::abs(once.z(single)), 4)
                 << g << ", " << radius << ": " << once.mean() << " against " << single;
 
-            // The parts that a path is given; that they sum to 1 holds by their weights alone.
+            // The shares that a path uses; their weights alone make them sum to 1.
             const StfShell& shell = stf->shells[k];
             const double scattered = 1 - std::exp(-radius);
             double recorded = 0, multiple = 0;
@@ -111,10 +111,10 @@ struct Cells {
 
 TEST(Stf, RecordsAreAsWalksAreInPlaceDirectionAndEvents)
 {
-    // Power: a shell's records carry the noise of its own walks and of those in the smaller shells they used, which is
-    // taken as half of its own variance for each smaller shell: a bound that is not measured. So a mean cell of the 192
-    // that is 20 % off shows at 2.9 standard errors in the smallest shell, 1.9 in the tenth, and 1.4 in the eleventh,
-    // which has a quarter of the walks; what is off in many cells together shows far earlier in the sum.
+    // Power: a shell's records have the noise of their own walks and of the smaller shells that these walks used. The
+    // latter is taken as half of the former's variance for each smaller shell: a bound that is not measured. So an
+    // error of 20 % in an average cell of the 192 shows at 2.9 standard errors in the smallest shell, 1.9 in the tenth,
+    // and 1.4 in the eleventh, which has a quarter of the walks. An error in many cells shows far earlier in the sum.
     constexpr size_t n = 60'000;
     const double level = sidak(1e-4, static_cast<int>(cases.size()));
     for (const Case& c : cases) {
@@ -125,7 +125,7 @@ TEST(Stf, RecordsAreAsWalksAreInPlaceDirectionAndEvents)
         for (const ShellWalk& walk : walks) direct[cells.of(walk.exit)] += 1;
         const StfShell& shell = stf->shells[c.shell];
         for (size_t i = 0; i < shell.exits.size(); ++i) mass[cells.of(shell.exits[i])] += shell.exit_weights[i];
-        // As sums over as many walks as there were, times what the smaller shells add.
+        // As sums over as many walks as were simulated; the variance grows by the share of the smaller shells.
         const double walked = static_cast<double>(walks.size()), chained = 1 + 0.5 * static_cast<double>(c.shell);
         for (size_t i = 0; i < mass.size(); ++i) {
             mass[i] *= walked;
@@ -145,9 +145,9 @@ TEST(Stf, WhatIsLeftAtAnAlbedoIsAsWalksHaveIt)
         const std::vector<ShellWalk> walks = simulate(stf->phase, radius, c.shell >= 10 ? 20'000 : 80'000, 12);
         for (const double albedo : {1.0, 0.999, 0.97, 0.8}) {
             const ShellSampler sampler(stf->shells[c.shell], albedo);
-            if (sampler.survival() < 1e-5) continue; // a few walks of all
-            // Sums over walks and the same over draws: survival, forward part, outward part; and of scatterings near
-            // the shell.
+            if (sampler.survival() < 1e-5) continue; // only a few walks would count
+            // The same sums over walks and over draws: survival, forward part, outward part; and two sums over
+            // scatterings near the shell.
             Estimate left, forward, outward, near, depth;
             for (const ShellWalk& walk : walks) {
                 const double weight = std::pow(albedo, walk.exit.events);
@@ -166,7 +166,7 @@ TEST(Stf, WhatIsLeftAtAnAlbedoIsAsWalksHaveIt)
                 drawn_outward.add(sampler.survival() * place_of(exit).direction.dot(place_of(exit).place));
                 drawn_depth.add(sampler.event_weight() * sampler.event(random.next()).direction.z);
             }
-            // The records' own noise is that of some 2^17 walks and of those in smaller shells.
+            // The records have the noise of about 2^17 walks of their own, and of the walks in smaller shells.
             const double chained = 1 + 0.5 * static_cast<double>(c.shell);
             const auto own = [&](const Estimate& e) {
                 return e.standard_error() *
@@ -190,7 +190,7 @@ TEST(Stf, WhatIsLeftAtAnAlbedoIsAsWalksHaveIt)
 
 TEST(Stf, KeepsWhatEveryWalkKeepsInTheMean)
 {
-    // See the builder: two identities, here of simulated walks, and of the records to rounding.
+    // The two identities of calibrate() in stf_builder.cpp: here for simulated walks, and for records up to rounding.
     for (const double g : {0.0, 0.8, -0.5}) {
         const auto stf = shells_of(g, 9);
         for (const size_t k : {0u, 4u, 8u}) {
@@ -236,7 +236,7 @@ TEST(Stf, LargeShellsAreAsDiffusionHasThem)
         }
         const double reach = shell.radius + 0.7104;
         EXPECT_NEAR(events / (0.5 * reach * reach), 1, 0.015)
-            << shell.radius; // a standard error of 0.8 / sqrt(2^17) a shell, over some ten that it is made of
+            << shell.radius; // standard error 0.8 / sqrt(2^17) per shell, summed over the ten or so shells used
         EXPECT_NEAR(out, 0.7104, 0.005) << shell.radius;
     }
 }
