@@ -92,11 +92,11 @@ TEST_F(VdbMedium, NamesTheGridsThereAre)
     const auto error = error_of({block("Density", 1.0f), block<openvdb::Vec3SGrid>("vel", openvdb::Vec3s(0))});
     ASSERT_TRUE(error);
     EXPECT_THAT(error->place(), HasSubstr("cloud.vdb"));
-    EXPECT_THAT(error->found(), HasSubstr("no grid 'density' but 'Density' (float), 'vel' (vec3s)"));
+    EXPECT_THAT(error->found(), HasSubstr("no grid 'density', but 'Density' (float), 'vel' (vec3s)"));
     EXPECT_THAT(error->hint(), HasSubstr("did you mean 'Density'?"));
     const auto albedo = error_of({block("density", 1.0f), block("g", 0.1f)}, with("colour"));
     ASSERT_TRUE(albedo);
-    EXPECT_THAT(albedo->expected(), HasSubstr("'colour' of albedo"));
+    EXPECT_THAT(albedo->expected(), HasSubstr("'colour' for \"albedo\""));
 }
 
 TEST_F(VdbMedium, RefusesWhatNoMediumHas)
