@@ -66,7 +66,7 @@ TEST_F(VdbMedium, ReadsWhatWasWritten)
     EXPECT_EQ(medium.albedo(middle), Color(0.9f, 0.8f, 0.7f));
     EXPECT_FLOAT_EQ(static_cast<float>(medium.g(middle)), 0.6f);
     EXPECT_TRUE(medium.is_achromatic());
-    // Interpolation reaches a voxel farther: -0.5 to 5.
+    // Interpolation reaches one voxel farther: -0.5 to 5.
     EXPECT_EQ(medium.bounds(), Imath::Box3d(space.point(V3d(-0.5)), space.point(V3d(5))));
     EXPECT_EQ(vdb_medium_bounds(path, options), Imath::Box3d(V3d(-0.5), V3d(5)));
 }
