@@ -19,7 +19,7 @@ namespace scree {
 /// the largest regions are in a dense table at its top.
 struct BrickField {
     static constexpr int32_t width = 8; ///< cells of a brick along an axis
-    static constexpr int32_t stride = 9; ///< corners
+    static constexpr int32_t stride = 9; ///< corners of a brick along an axis
     static constexpr size_t corners = size_t{stride} * stride * stride;
 
     /// The values of a region: all corners of a brick, plane by plane, x slowest; or one value per plane if it is

@@ -87,9 +87,8 @@ TEST(ShellTracing, IsWhiteInAFurnaceInEveryForm)
             scene->add_surface(box_mesh({-0.9, -0.9, -0.6}, {0.4, 0.5, -0.5}), dielectric(1.33));
             TriangleMesh ball = icosphere(2);
             for (V3d& p : ball.positions) p = 0.7 * p + V3d(0.5, 0.2, -0.4);
-            scene->add_medium(
-                ball, V3d(12), Color(1),
-                -0.3); // through the cube's faces: where both media overlap, light goes from event to event
+            // Through the cube's faces: where both media overlap, light goes from event to event.
+            scene->add_medium(ball, V3d(12), Color(1), -0.3);
             scene->use_shells(form);
         }
         constant.add_constant_light(1);
