@@ -16,9 +16,9 @@ void match(ContinuousEquivalent& medium, double diffusivity, double transport_le
 {
     double g = 1 - diffusivity / (transport_length * transport_length);
     if (!(g >= least_g && g <= most_g)) {
-        medium.doubt = fmt::format(
-            "no medium has D {:.3g} with a transport length of {:.3g}; the asymmetry {:.3g} is taken as {:.3g}",
-            diffusivity, transport_length, g, std::clamp(g, least_g, most_g));
+        medium.doubt = fmt::format("no medium has diffusivity {:.3g} and transport length {:.3g}: the asymmetry g "
+                                   "would be {:.3g}, {:.3g} is used",
+                                   diffusivity, transport_length, g, std::clamp(g, least_g, most_g));
         g = std::clamp(g, least_g, most_g);
     }
     medium.g = g;
@@ -27,9 +27,9 @@ void match(ContinuousEquivalent& medium, double diffusivity, double transport_le
 
 void match_decay(ContinuousEquivalent& medium, const PackingWalk& walk)
 {
-    // What a half-space reflects follows from albedo and g alone: so the brightest channel keeps its own, and it is
-    // sigma_t that gives it the decay of the packing (none is lost where nothing decays). The others then need other
-    // albedos.
+    // The reflectance of a half-space depends on albedo and g alone. So the brightest channel keeps its albedo, and
+    // sigma_t is chosen to give it the decay of the packing (if it decays at all). The other channels get their decay
+    // by changed albedos.
     const MixtureMoments& moments = medium.moments;
     const int brightest = moments.albedo.x >= moments.albedo.y ? (moments.albedo.x >= moments.albedo.z ? 0 : 2)
                                                                : (moments.albedo.y >= moments.albedo.z ? 1 : 2);
@@ -38,11 +38,11 @@ void match_decay(ContinuousEquivalent& medium, const PackingWalk& walk)
         medium.sigma_t = wanted / kappa;
     for (int c = 0; c < 3; ++c) {
         const double kappa = walk.decay[static_cast<size_t>(c)].kappa.value / medium.sigma_t;
-        if (!(kappa > 0)) continue; // loses nothing
+        if (!(kappa > 0)) continue; // no loss in this channel
         medium.albedo[c] = albedo_of_decay(std::min(kappa, 1.0), medium.g);
         if (medium.albedo[c] < least_albedo) {
             medium.doubt =
-                fmt::format("light dies away by {:.3g} a mean free path, which no albedo makes it do", kappa);
+                fmt::format("light decays by exp(-{:.3g}) per mean free path, which is too fast for any albedo", kappa);
             medium.albedo[c] = least_albedo;
         }
     }

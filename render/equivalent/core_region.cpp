@@ -13,7 +13,7 @@ namespace scree {
 
 namespace {
 
-constexpr double voxels_deep = 6; ///< along the depth of a heap's core
+constexpr double voxels_deep = 6; ///< voxels along the depth of a heap's core
 
 void check_depth(const char* place, double depth)
 {
@@ -42,7 +42,7 @@ std::optional<RegionSurface> inset_of_mesh(std::span<const V3f> positions,
         }
     if (!is_balanced(surface))
         throw InputError("inset of a mesh", "a mesh that is not closed", "every edge with a face on either side",
-                         "see scree info");
+                         "`scree info` reports on a mesh file");
     if (depth == 0) return surface;
     const V3d size = bounds.size();
     if (2 * depth >= std::min({size.x, size.y, size.z})) return std::nullopt;
@@ -50,7 +50,7 @@ std::optional<RegionSurface> inset_of_mesh(std::span<const V3f> positions,
     openvdb::initialize();
     const double wanted = std::min(depth / 4, std::max({size.x, size.y, size.z}) / 64);
     const double voxel = affordable_voxel(surface, depth, wanted);
-    // A little aside, so that no face of a box runs through voxels' centres.
+    // Shifted slightly, so that no face of an axis-aligned box runs through voxel centres.
     const VoxelLattice lattice{bounds.min - V3d(0.37, 0.41, 0.43) * voxel, voxel};
     auto inset = inset_on_lattice(surface, depth, lattice, progress);
     if (inset) inset->coarsened = voxel > wanted;
@@ -65,7 +65,7 @@ std::optional<RegionSurface> core_of_spheres(std::span<const GrainStore::Sphere>
     if (!(radius > 0)) return std::nullopt;
     const double closing = options.closing * radius;
     const VoxelLattice lattice{V3d(0), options.voxel * radius};
-    // The deeper, the smoother: finer voxels would tell no more.
+    // A deeper surface is smoother, so that finer voxels would not improve it.
     const double voxel = std::max(lattice.voxel, (closing + depth) / voxels_deep);
     return inset_of_hull(dilated_spheres(spheres, closing, lattice, progress), closing + depth, {lattice.origin, voxel},
                          progress);

@@ -7,12 +7,11 @@ namespace scree {
 
 namespace {
 
-/// Whether light with this profile would decay by itself: all pivots of the system, from the highest order down, are
-/// positive.
+/// Whether the system is positive definite: all pivots, from the highest order down, are positive.
 bool is_positive_definite(double loss, double g, double kappa)
 {
-    // Pivots far up tend to l (1 + sqrt(1 - kappa^2)); orders beyond those that g reaches, and that make the start
-    // forgotten, do nothing.
+    // For large l the pivots tend to l (1 + sqrt(1 - kappa^2)). Orders above `reach` have no effect: g^l is negligible
+    // there, and the recursion forgets its start value on the way down.
     const double root = std::sqrt(std::max(0.0, (1 - kappa) * (1 + kappa)));
     const double reach = std::max(-30 / std::log(std::max(std::abs(g), 1e-10)), 30 / std::max(root, 1e-3));
     const int top = static_cast<int>(std::clamp(reach, 32.0, 100000.0));
@@ -36,7 +35,7 @@ double decay_constant(double albedo, double g)
     if (loss == 0) return 0;
     double low = 0, high = 1;
     for (int i = 0; i < 60 && high - low > 1e-15 * high; ++i) {
-        // Small ones are found to the same relative accuracy.
+        // Small values get the same relative accuracy.
         const double middle = low == 0 && high > 1e-9 ? 0.25 * high : 0.5 * (low + high);
         (is_positive_definite(loss, g, middle) ? low : high) = middle;
     }
@@ -47,7 +46,7 @@ double albedo_of_decay(double kappa, double g)
 {
     if (kappa <= 0) return 1;
     if (kappa >= 1) return 0;
-    // Of the loss, which may be small.
+    // Bisects the loss 1 - albedo, which may be small.
     double low = 0, high = 1;
     for (int i = 0; i < 60 && high - low > 1e-15 * high; ++i) {
         const double middle = low == 0 && high > 1e-15 ? 0.25 * high : 0.5 * (low + high);

@@ -22,15 +22,16 @@ using Spheres = std::span<const GrainStore::Sphere>;
 
 constexpr int block = Leaf::DIM;
 constexpr double largest_point =
-    0.5; ///< radius in voxels up to which a sphere is a point; alone it fills a fifth of its voxel
+    0.5; ///< radius in voxels up to which a sphere is spread as one point; alone it fills a fifth of its voxel
 
-/// Points of a cubic lattice around a large sphere's centre, each with the part of its cell that is inside, roughly.
+/// Points of a cubic lattice around a large sphere's centre; each is weighted by roughly the part of its cell that is
+/// inside the sphere.
 struct Filling {
     uint32_t sphere = 0;
     int reach = 0; ///< points along an axis to either side
-    double step = 0; ///< of the lattice, in voxels: at most 1/2, so that the sum of splines is smooth
+    double step = 0; ///< step of the lattice, in voxels: at most 1/2, so that the sum of splines is smooth
     double radius = 0; ///< in steps
-    double scale = 1; ///< makes the weights' sum 1
+    double scale = 1; ///< makes the weights sum to 1
 
     Filling(uint32_t index, double radius_in_voxels) : sphere(index)
     {
@@ -52,7 +53,7 @@ struct Filling {
     }
 };
 
-/// Sums of one type in a block: of r^2, r^3 and r^4, all in voxels.
+/// Sums of r^2, r^3 and r^4 for one type in a block, all in voxels.
 struct TypeSums {
     bool used = false;
     std::array<std::array<double, Leaf::SIZE>, 3> moment{};
@@ -79,7 +80,7 @@ public:
         }
     }
 
-    /// The voxels that a sphere gives to.
+    /// The voxels to which a sphere contributes.
     bool range(uint32_t sphere, SphereBins::Voxel& first, SphereBins::Voxel& last) const
     {
         const double r = radius(sphere);
@@ -87,7 +88,7 @@ public:
         const double around = 1 + (r > largest_point ? r : 0);
         const V3d c = centre(sphere);
         for (int k = 0; k < 3; ++k) {
-            // Far beyond what bins take; they tell.
+            // Limited for the conversion; SphereBins refuses such values.
             const double at = std::clamp(c[k], -0x1p60, 0x1p60);
             first[static_cast<size_t>(k)] = std::llround(std::floor(at - around + 0.5));
             last[static_cast<size_t>(k)] = std::llround(std::floor(at + around + 0.5));
@@ -128,7 +129,7 @@ private:
 
     static void fill(const V3d& c, const double (&moment)[3], const Filling& f, TypeSums& to)
     {
-        // Only the points that give to this block.
+        // Only the points that contribute to this block.
         int first[3], last[3];
         for (int k = 0; k < 3; ++k) {
             first[k] =
@@ -146,7 +147,8 @@ private:
                 }
     }
 
-    /// Gives to the voxels of the block alone; the others of the 27 get theirs where their block is filled.
+    /// Adds to the voxels of this block only; the others of the 27 voxels get their part when their own block is
+    /// filled.
     static void add_point(const V3d& c, const double (&moment)[3], TypeSums& to)
     {
         double weight[3][3];
@@ -188,7 +190,7 @@ std::unique_ptr<Leaf> make_leaf(const SphereBins::Voxel& at, const std::array<do
     return leaf;
 }
 
-/// Turns a block's sums to leaves and empties them.
+/// Turns a block's sums into leaves, and resets the sums.
 BlockLeaves to_leaves(const SphereBins::Voxel& at, double voxel, std::vector<TypeSums>& sums)
 {
     const double factor[3] = {1 / voxel, 1, voxel};
@@ -214,7 +216,7 @@ openvdb::FloatGrid::Ptr make_grid(const char* name)
     return grid;
 }
 
-/// The codes that spheres with a radius have, and each code's place among them.
+/// The type codes of the spheres with radius above 0, ascending. place: set to each code's index in the result, or -1.
 std::vector<uint8_t> codes_in_use(Spheres spheres, std::span<const uint8_t> type_codes, uint32_t type_count,
                                   std::vector<int>& place)
 {
@@ -253,7 +255,7 @@ double total(const openvdb::FloatGrid& grid)
 /// index: in voxels.
 double value_at(const openvdb::FloatGrid& grid, const V3d& index)
 {
-    // Far outside of what coordinates of voxels can be there is nothing.
+    // The field is 0 outside the range of voxel coordinates.
     for (int k = 0; k < 3; ++k)
         if (!(std::abs(index[k]) < 0x1p30)) return 0;
     return openvdb::tools::BoxSampler::sample(grid.tree(), openvdb::Vec3d(index.x, index.y, index.z));

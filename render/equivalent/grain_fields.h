@@ -11,14 +11,14 @@
 namespace scree {
 
 struct GrainFieldOptions {
-    /// Edge of a voxel in volume-weighted mean radii: a continuum wants means over a few grains.
+    /// Edge of a voxel in volume-weighted mean radii; a continuum needs means over a few grains.
     double voxel_radii = 2.5;
-    /// Edge of a voxel in render coordinates, 0: by voxel_radii. A series of frames may want one for all.
+    /// Edge of a voxel in render coordinates, for example the same for a series of frames; 0: use voxel_radii.
     double voxel = 0;
-    FloatMargin margin{}; ///< by which the radii handed in are widened (GrainStore::margin)
+    FloatMargin margin{}; ///< the margin that the given radii already include (GrainStore::margin)
 };
 
-/// Densities of moments of the radius, per unit of volume: sum of r^k over the volume, spheres of one type.
+/// Densities of the moments of the radius, for spheres of one type: sum of r^k per unit of volume.
 struct MomentDensity {
     double m2 = 0, m3 = 0, m4 = 0;
 
@@ -28,10 +28,10 @@ struct MomentDensity {
 
 /// Sparse fields of pack rate and moments of the radius for each type of grain, in render coordinates.
 ///
-/// Value (i, j, k) belongs to the place (i, j, k) * voxel, the same lattice in each frame. Around its centre a sphere
-/// is spread with the weights of the quadratic B-spline, which sum to 1 (Hockney and Eastwood's triangular-shaped
-/// cloud); a sphere larger than half a voxel is spread from points that fill it. So the sum over the voxels is that of
-/// the spheres.
+/// Value (i, j, k) belongs to the point (i, j, k) * voxel, so that frames share one lattice. A sphere is spread around
+/// its centre with the weights of the quadratic B-spline, which sum to 1 (Hockney and Eastwood's triangular-shaped
+/// cloud); a sphere with a radius above half a voxel is spread from points that fill it. So the sum over the voxels
+/// equals the sum over the spheres.
 class GrainFields {
 public:
     struct Grids; ///< grain_field_grids.h: the OpenVDB grids
@@ -41,20 +41,20 @@ public:
     GrainFields(GrainFields&&) noexcept;
     GrainFields& operator=(GrainFields&&) noexcept;
 
-    /// Edge of a voxel; 0 where there are no spheres.
+    /// Edge of a voxel; 0 if there are no spheres.
     double voxel() const;
-    /// Types that have spheres, ascending.
+    /// Type codes that have spheres, ascending.
     std::span<const uint8_t> types() const;
     /// Trilinear between voxels; zeros for a type that has no spheres.
     MomentDensity moments(uint8_t type, const V3d& place) const;
-    /// Of all types.
+    /// The pack rate of all types together.
     double pack_rate(const V3d& place) const;
     /// The sum of voxel values times the volume of a voxel: sum of r^k over the spheres of a type.
     MomentDensity totals(uint8_t type) const;
-    /// Volume of all spheres, as the field of the pack rate has it.
+    /// Volume of all spheres, by the field of the pack rate.
     double sphere_volume() const;
 
-    uint64_t voxels() const; ///< with material
+    uint64_t voxels() const; ///< number of voxels with material
     uint64_t bytes() const;
     const Grids& grids() const { return *grids_; }
 
@@ -62,10 +62,10 @@ private:
     std::unique_ptr<Grids> grids_;
 };
 
-/// Spreads spheres into fields; the same bits on any number of threads, and in any unit that is 2^k of another.
+/// Spreads spheres into fields; the result is bit-identical for any number of threads, and for units of length that
+/// differ by a factor 2^k.
 ///
-/// type_codes: one for each sphere, below type_count. Spheres without radius leave nothing. Throws InputError,
-/// Cancelled.
+/// type_codes: one for each sphere, below type_count. Spheres of radius 0 are ignored. Throws InputError, Cancelled.
 GrainFields make_grain_fields(std::span<const GrainStore::Sphere> spheres, std::span<const uint8_t> type_codes,
                               uint32_t type_count, const GrainFieldOptions& options, const Progress& progress);
 

@@ -17,20 +17,22 @@ namespace {
 using Leaf = openvdb::FloatTree::LeafNodeType;
 using Spheres = std::span<const GrainStore::Sphere>;
 
-constexpr int block = 32; ///< voxels along an edge: a sphere is in few blocks, and a block's values fit a near cache
+/// voxels along an edge: a sphere overlaps few blocks, and a block's values fit into the cache
+constexpr int block = 32;
 constexpr int leaves_along = block / static_cast<int>(Leaf::DIM);
 constexpr size_t leaves_in_block = leaves_along * leaves_along * leaves_along;
-constexpr double beyond = 1.75; ///< voxels outside of the union up to which distances are known: a cell's diagonal
+/// voxels outside the union up to which distances are known: more than a cell's diagonal
+constexpr double beyond = 1.75;
 
 struct BlockValues {
     std::array<float, size_t{block} * block * block> distance{}; ///< in voxels
     std::bitset<leaves_in_block> touched;
 };
 
-/// Leaves of one block, in no tree yet.
+/// A leaf of one block, not yet in a tree.
 struct FoundLeaf {
     std::unique_ptr<Leaf> leaf;
-    bool inside; ///< all of it
+    bool inside; ///< whether all of it is inside
 };
 
 class Dilation {
@@ -142,8 +144,8 @@ std::vector<FoundLeaf> to_leaves(const SphereBins::Bin& bin, const BlockValues& 
     return leaves;
 }
 
-/// Puts the leaves into one tree; those whose neighbours all are inside as well become single values: no surface is
-/// near them.
+/// Puts the leaves into one tree. An inside leaf whose neighbours are all inside too becomes a tile, as no surface is
+/// near it.
 openvdb::FloatGrid::Ptr gather(std::vector<std::vector<FoundLeaf>>& leaves)
 {
     const auto cell = [](const FoundLeaf& found) { return found.leaf->origin() >> Leaf::LOG2DIM; };
@@ -152,7 +154,7 @@ openvdb::FloatGrid::Ptr gather(std::vector<std::vector<FoundLeaf>>& leaves)
         for (const FoundLeaf& found : of_block)
             if (found.inside) inside.setValueOn(cell(found));
     auto grid = openvdb::FloatGrid::create(static_cast<float>(beyond));
-    grid->setGridClass(openvdb::GRID_LEVEL_SET); // which side of its surface is out depends on this
+    grid->setGridClass(openvdb::GRID_LEVEL_SET); // volumeToMesh orients the surface by this class
     openvdb::tree::ValueAccessor<const openvdb::MaskTree> is_inside(inside);
     for (auto& of_block : leaves) {
         for (FoundLeaf& found : of_block) {

@@ -4,10 +4,10 @@ namespace scree {
 
 namespace {
 
-/// Integrals over q of what a stratum is chosen with, (1 - alpha0(q)) times the tent of Gsdf::stratum, and of the entry
-/// under it.
+/// Integrals over q for one stratum, weighted by the probability of choosing it: (1 - alpha0(q)) times the tent of
+/// Gsdf::stratum.
 struct StratumImpact {
-    double mass = 0, b = 0, cosine = 0; ///< of 1, sin beta_o, cos beta_o
+    double mass = 0, b = 0, cosine = 0; ///< integrals of 1, sin beta_o, cos beta_o
 };
 
 std::array<StratumImpact, Gsdf::strata> stratum_impacts(const Gsdf& gsdf)
@@ -80,7 +80,8 @@ GrainMoments grain_moments(const Gsdf& gsdf)
         const StratumImpact& impact = impacts[s];
         if (!(impact.mass > 0)) continue;
         for_each_record(gsdf, s, [&](uint32_t, const GsdfRecord& record, double mass) {
-            // The entry is (b, 0, -cos beta_o), the exit a unit vector: all moments are linear in the entry.
+            // The entry is (sin beta_o, 0, -cos beta_o) and the exit a unit vector, so all moments are linear in the
+            // entry.
             const V3d p = record.point.unpack(), w = record.direction.unpack();
             const double all = mass * impact.mass;
             total += all;
@@ -97,7 +98,7 @@ GrainMoments grain_moments(const Gsdf& gsdf)
 
 GrainAlbedo grain_albedo(const Gsdf& gsdf, const Material& material, double radius)
 {
-    // Of what is lost, so that nothing lost is nothing.
+    // Sums the losses, so that the albedo is exactly 1 without losses.
     GrainAlbedo albedo{V3d(1), V3d(0)};
     const auto impacts = stratum_impacts(gsdf);
     for (uint32_t s = 0; s < Gsdf::strata; ++s) {

@@ -20,10 +20,10 @@ namespace {
 using Leaf = openvdb::FloatTree::LeafNodeType;
 constexpr int dim = Leaf::DIM;
 constexpr float beyond =
-    2; ///< voxels on either side of the level up to which the field is known: more than a cell's diagonal
+    2; ///< Voxels on both sides of the level up to which the field is known: more than a cell's diagonal.
 
-/// How deep places lie below a hull. What is inside its own field says, and how far from the surface a tree of its
-/// triangles: of the many voxels of a heap only those near the level are asked about.
+/// The depth of points below a hull. The hull's field tells whether a point is inside; a tree of its triangles gives
+/// the distance from the surface, which is computed only for the few voxels near the level.
 class Depth {
 public:
     Depth(const GrainHull& hull, double level, const VoxelLattice& lattice, const Progress& progress)
@@ -37,7 +37,7 @@ public:
         tree_ = TriangleTree({&view, 1}, scale_, progress);
     }
 
-    /// Leaves of the lattice in which anything may be deep enough.
+    /// Leaves of the lattice in which points may be deep enough.
     std::vector<openvdb::Coord> candidates() const
     {
         std::set<openvdb::Coord> found;
@@ -60,8 +60,8 @@ public:
 
     enum class Kind { outside, inside, mixed };
 
-    /// Fills a leaf with what is missing to the level, in voxels; negative where it is deep enough. Leaves it alone
-    /// unless mixed.
+    /// Fills a leaf with level minus depth, in voxels: negative where a point is deep enough. Changes the leaf only if
+    /// the result is `mixed`.
     Kind fill(Leaf& leaf) const
     {
         openvdb::tree::ValueAccessor<const openvdb::FloatTree> field(hull_.field->tree());
@@ -78,7 +78,7 @@ public:
                     const V3d place = first + V3d(i, j, k);
                     const bool inside = is_inside(field, place);
                     const double deep = distance(place), missing = inside ? level_ - deep : beyond;
-                    // As far as all of the row is beyond what is to be known, or outside as well.
+                    // The next voxels of the row for which the same value holds: beyond the known band, or outside too.
                     int same = 1 + static_cast<int>(std::max(inside ? 0.0 : deep, std::abs(level_ - deep) - beyond));
                     for (; same > 0 && k < dim; --same, ++k) {
                         const auto offset = static_cast<openvdb::Index>((i * dim + j) * dim + k);
@@ -135,7 +135,7 @@ std::optional<RegionSurface> inset_of_hull(const GrainHull& hull, double depth, 
     });
     if (progress.cancelled()) throw Cancelled();
     const auto grid = openvdb::FloatGrid::create(beyond);
-    grid->setGridClass(openvdb::GRID_LEVEL_SET); // which side of its surface is out depends on this
+    grid->setGridClass(openvdb::GRID_LEVEL_SET); // volumeToMesh orients the surface by this class
     for (size_t i = 0; i < leaves.size(); ++i) {
         if (kinds[i] == Depth::Kind::inside)
             grid->tree().addTile(1, candidates[i] << Leaf::LOG2DIM, -beyond, false);

@@ -4,8 +4,8 @@
 
 namespace scree {
 
-/// All points deeper than `depth` below a hull, found in voxels of one size; nothing where there are none. Throws
-/// Cancelled.
+/// The region of all points deeper than `depth` below a hull, computed with voxels of one size; nullopt if it is empty.
+/// Throws Cancelled.
 std::optional<RegionSurface> inset_of_hull(const GrainHull& hull, double depth, const VoxelLattice& lattice,
                                            const Progress& progress);
 

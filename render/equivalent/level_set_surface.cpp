@@ -11,11 +11,11 @@ namespace scree {
 
 namespace {
 
-constexpr double most_voxels = 8e6; ///< half a gigabyte while it works, a million triangles
-constexpr const char* stage = "medium's surface"; ///< of the progress
-constexpr double margin = 3; ///< voxels of the band beyond what is asked for, so that the level lies well inside of it
+constexpr double most_voxels = 8e6; ///< half a gigabyte during the computation, a million triangles
+constexpr const char* stage = "medium's surface"; ///< stage name in the progress
+constexpr double margin = 3; ///< extra voxels on each side of the band, so that the level lies well inside it
 
-/// A surface as OpenVDB wants to see it, without a copy.
+/// Adapter that gives a surface to OpenVDB without a copy.
 class SurfaceOnLattice {
 public:
     SurfaceOnLattice(const RegionSurface& surface, const VoxelLattice& lattice) : surface_(surface), lattice_(lattice)
@@ -62,7 +62,7 @@ RegionSurface level_surface(const openvdb::FloatGrid& grid, double level, const 
     surface.positions.reserve(points.size());
     for (const auto& p : points) surface.positions.emplace_back(lattice.place(V3d(p.x(), p.y(), p.z())));
     surface.triangles.reserve(2 * quads.size());
-    // OpenVDB's polygons go clockwise seen from outside (of level sets; the other way of other grids).
+    // OpenVDB's polygons are clockwise seen from outside for level sets, counter-clockwise for other grids.
     for (const auto& q : quads) {
         surface.triangles.push_back({q[2], q[1], q[0]});
         surface.triangles.push_back({q[3], q[2], q[0]});
@@ -74,7 +74,7 @@ double affordable_voxel(const RegionSurface& surface, double depth, double wante
 {
     const double area = surface_area(surface), volume = std::abs(surface_volume(surface));
     double voxel = wanted;
-    // Outside of the surface and beyond the level a few layers of voxels are kept as well.
+    // A few layers of voxels outside the surface and beyond the level are stored too.
     while (area * (2 * margin) / (voxel * voxel) + std::min(area * depth, volume) / (voxel * voxel * voxel) >
            most_voxels)
         voxel *= 1.125;
@@ -86,8 +86,8 @@ std::optional<RegionSurface> inset_on_lattice(const RegionSurface& surface, doub
 {
     const double level = depth / lattice.voxel;
     Interrupter interrupter(progress);
-    // Renormalising would move what is exact; it mends self-intersecting meshes only.
-    // What it takes for self-intersections may be the walls of cavities.
+    // Renormalising is disabled: it would change exact values and helps only self-intersecting meshes. Removal of
+    // intersecting voxels is disabled: it may take the walls of cavities for self-intersections.
     const int flags = openvdb::tools::DISABLE_RENORMALIZATION | openvdb::tools::DISABLE_NARROW_BAND_TRIMMING |
                       openvdb::tools::DISABLE_INTERSECTING_VOXEL_REMOVAL;
     const auto grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
@@ -96,7 +96,7 @@ std::optional<RegionSurface> inset_on_lattice(const RegionSurface& surface, doub
     if (progress.cancelled()) throw Cancelled();
     RegionSurface inset = level_surface(*grid, -level, lattice);
     if (progress.cancelled()) throw Cancelled();
-    // To OpenVDB all that is not outside of the outermost shells is inside.
+    // For OpenVDB everything inside the outermost shells is inside, cavities too.
     drop_shells_in_cavities(surface, depth, inset);
     progress.update(stage, 1);
     if (inset.triangles.empty()) return std::nullopt;

@@ -8,8 +8,8 @@ namespace scree {
 
 double MixtureMoments::diffusivity() const
 {
-    // A step is Y_i = s_i w_i + delta_i. <Y_i^2> / 2, and with all later steps: the mean of Y_i . w_(i+1) is l g + b,
-    // that of Y_j along w_(i+1) is (l + a) g^(j-i-1).
+    // A step is Y_i = s_i w_i + delta_i. The first term is <Y_i^2> / 2, the second is the correlation with all later
+    // steps: the mean of Y_i . w_(i+1) is l g + b, and the mean of Y_j along w_(i+1) is (l + a) g^(j-i-1).
     return 0.5 * (flight2 + 2 * flight * along_in + delta2) + (flight * g + along_out) * transport_length();
 }
 
@@ -20,7 +20,7 @@ MixtureMoments mixture_moments(std::span<const GrainShare> shares, double fracti
         throw InputError(place, fmt::format("a pack rate of {:g}", fraction), "more than 0 and less than 1");
     MixtureMoments mixture;
     double r2 = 0, r3 = 0; // sums over grains
-    double scattered = 0, passed = 0, chord = 0, chord2 = 0; // cross-sections, and weighted by them
+    double scattered = 0, passed = 0, chord = 0, chord2 = 0; // cross-sections, and chords weighted by them
     V3d lost(0);
     for (const GrainShare& share : shares) {
         if (!(share.number >= 0 && share.radius > 0 && std::isfinite(share.number * share.radius)))
@@ -56,9 +56,9 @@ MixtureMoments mixture_moments(std::span<const GrainShare> shares, double fracti
         chord2 /= passed;
     }
     const double l_v = 4 * (1 - fraction) * r3 / (3 * fraction * r2);
-    // The number K of passes before a scattering is geometric: its mean is `passes`, its variance passes (1 + passes).
-    // The flight is s_0 + sum over K of (c_k + s_k); its variance that of s_0, K times that of c + s, and that of K
-    // times (c + s)^2.
+    // The number K of passes before a scattering is geometric, with mean `passes` and variance passes (1 + passes). The
+    // flight is s_0 + the sum over K of (c_k + s_k). Its variance is var(s_0) + mean(K) var(c + s) + var(K) mean(c +
+    // s)^2.
     const double passes = passed / scattered, step = chord + l_v;
     const double variance =
         l_v * l_v + passes * (chord2 - chord * chord + l_v * l_v) + passes * (1 + passes) * step * step;

@@ -33,14 +33,15 @@ std::array<double, 5> exponential_moments(double x)
     return moments;
 }
 
-/// Adds the mean over rotations of P_k(mu_0) exp(kappa z) P_l(mu_m), times what the way keeps.
+/// Adds the mean over rotations of P_k(mu_0) exp(kappa z) P_l(mu_m), times the path's weight.
 void add_way(const DecayWay& way, double kappa, M33d& sum)
 {
-    // z-axis: t along the line of the way, sqrt(1 - t^2) across it at an azimuth that is averaged over.
+    // The z-axis has the component t along the line of the path and sqrt(1 - t^2) across it, at an azimuth that is
+    // averaged over.
     const double a = way.start, b = way.end, d = way.turn - a * b, across_a = 1 - a * a, across_b = 1 - b * b;
     const auto t = exponential_moments(kappa * way.length);
     const double t2s2 = t[2] - t[4], s2 = t[0] - t[2], s4 = t[0] - 2 * t[2] + t[4], ts2 = t[1] - t[3];
-    const double a1 = a * t[1], b1 = b * t[1]; // of mu_0, mu_m
+    const double a1 = a * t[1], b1 = b * t[1]; // means of mu_0, mu_m
     const double a2 = a * a * t[2] + 0.5 * across_a * s2, b2 = b * b * t[2] + 0.5 * across_b * s2; // mu_0^2, mu_m^2
     const double ab = a * b * t[2] + 0.5 * d * s2; // mu_0 mu_m
     const double ab2 = a * b * b * t[3] + 0.5 * a * across_b * ts2 + b * d * ts2; // mu_0 mu_m^2
@@ -59,7 +60,7 @@ void add_way(const DecayWay& way, double kappa, M33d& sum)
     sum[2][2] += kept * (2.25 * a2b2 - 0.75 * (a2 + b2) + 0.25 * t[0]);
 }
 
-/// Largest eigenvalue of A against the Gram matrix diag(1, 1/3, 1/5), with its vectors to the left and right.
+/// Largest generalised eigenvalue of A with the Gram matrix diag(1, 1/3, 1/5), and its left and right eigenvectors.
 struct Mode {
     double value = 0;
     V3d left{1, 0, 0}, right{1, 0, 0};
@@ -85,7 +86,7 @@ Mode largest_mode(const M33d& a)
 
 class DecayFit {
 public:
-    /// thinned: one in so many ways is used.
+    /// thinned: one in this many paths is used.
     DecayFit(std::span<const std::vector<DecayWay>> batches, size_t thinned)
         : batches_(batches), sums_(batches.size()), thinned_(thinned)
     {
@@ -101,11 +102,11 @@ public:
         }
         if (squares > 0) diffusive2_ = 6 * lost / squares;
     }
-    /// kappa^2 by diffusion, exp(kappa z) taken as 1 + kappa^2 r^2 / 6: about right.
+    /// An approximate kappa^2 by diffusion, with exp(kappa z) approximated by 1 + kappa^2 r^2 / 6.
     double diffusive2() const { return diffusive2_; }
     double longest() const { return longest_; }
 
-    /// The largest eigenvalue less 1.
+    /// The largest eigenvalue minus 1.
     double excess(double kappa)
     {
         M33d all(0.0);
@@ -117,7 +118,7 @@ public:
         mode_ = largest_mode(all * (1 / count_));
         return mode_.value - 1;
     }
-    /// How the excess at the last kappa scatters.
+    /// The standard error of the excess at the last kappa.
     double error() const
     {
         const V3d &u = mode_.left, &v = mode_.right;
@@ -144,11 +145,11 @@ private:
     Mode mode_;
 };
 
-/// Where the excess is 0; 0 if nowhere.
+/// The kappa at which the excess is 0; 0 if there is none.
 double find_root(DecayFit& fit)
 {
-    // The excess is negative at 0 and grows. A bracket, then regula falsi (Illinois) in kappa^2, in which it is nearly
-    // linear.
+    // The excess is negative at 0 and grows. Finds a bracket, then uses regula falsi (Illinois) in kappa^2, in which
+    // the excess is nearly linear.
     const double at_zero = fit.excess(0);
     if (!(at_zero < 0) || !(fit.longest() > 0)) return 0;
     double low = 0, high = fit.diffusive2(), at_low = at_zero, at_high = fit.excess(std::sqrt(high));
@@ -184,7 +185,7 @@ Measured decay_of_ways(std::span<const std::vector<DecayWay>> batches)
     constexpr size_t enough_for_a_start = 8192;
     size_t count = 0;
     for (const auto& batch : batches) count += batch.size();
-    // From a part of the ways, then by Newton's method from all.
+    // First a root from a part of the paths, then Newton's method with all paths.
     const size_t thinned = std::max<size_t>(1, count / enough_for_a_start);
     DecayFit some(batches, thinned), all(batches, 1);
     double kappa = find_root(some);
@@ -196,7 +197,7 @@ Measured decay_of_ways(std::span<const std::vector<DecayWay>> batches)
         slope = (above - at) / (0.001 * kappa);
         const double step = std::clamp(at / slope, -0.3 * kappa, 0.3 * kappa);
         kappa -= step;
-        // Newton's error is about the square of its step; the statistics' stays what it was.
+        // Newton's relative error is about the square of its relative step, and so below the statistical error.
         if (std::abs(step) < 0.01 * kappa) break;
     }
     return {kappa, all.error() / slope};

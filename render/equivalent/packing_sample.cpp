@@ -21,7 +21,8 @@ PackingSample sample_fill(const GrainFill& fill, uint64_t most)
     const ProceduralFill& spheres = fill.fill();
     PackingSample sample;
     sample.pack_rate = spheres.tile().fraction();
-    // Rows and cells by hash: cells outside have no grains, but a mixture has an answer for them as well.
+    // Rows and cells by hash. Cells outside the domain have no grains; they are used only if no grain is found inside,
+    // as the mixture gives types for them too.
     for (const bool everywhere : {false, true}) {
         for (uint64_t i = 0; i < 8 * most && sample.grains.size() < most; ++i) {
             const uint64_t cell = hash_index(i, 0) % spheres.cell_count(),
@@ -40,7 +41,7 @@ PackingSample sample_list(const GrainStore& grains, size_t types, uint64_t most,
 {
     PackingSample sample;
     const uint64_t count = std::min<uint64_t>(grains.size(), most);
-    for (uint64_t n = 0; n < count; ++n) { // one of every so many, by hash: lists may have a rhythm
+    for (uint64_t n = 0; n < count; ++n) { // one of each group of consecutive grains, by hash: lists may be periodic
         const uint64_t first = n * grains.size() / count, next = (n + 1) * grains.size() / count;
         const uint64_t i = first + hash_index(n, 0) % (next - first);
         sample.grains.push_back({i, grains.radius(i), grains.type_codes[i]});
@@ -81,12 +82,12 @@ MomentTable::MomentTable(const std::vector<GrainType>& types, const PackingSampl
     for (size_t i = 0; i < types_.size(); ++i) {
         Type& type = types_[i];
         if (!type.gsdf) continue;
-        if (!(most[i] > 0)) { // the sample has missed it
+        if (!(most[i] > 0)) { // the sample has no grain of this type
             least[i] = std::ranges::min(least);
             most[i] = std::ranges::max(most);
         }
-        constexpr double margin = 2,
-                         finest = 0.1; // shares of two radii reach beyond the sample's; steps of the logarithm
+        // margin: shares of two radii reach beyond the sample's range; finest: step of the logarithm
+        constexpr double margin = 2, finest = 0.1;
         type.least = std::log(least[i] / margin);
         const double range = std::log(most[i] * margin) - type.least;
         const auto steps = is_black(type.material.absorption) ? 0 : static_cast<size_t>(std::ceil(range / finest));
@@ -113,14 +114,15 @@ void MomentTable::add_shares(uint8_t type, double m2, double m3, double m4, std:
 {
     if (!(m2 > 0)) return;
     const Type& kind = types_[type];
-    const double mean = m3 / m2, deviation = safe_sqrt(m4 / m2 - mean * mean); // of the radius, by cross-section
-    constexpr double same = 1e-3; // of the mean: as one radius
+    // mean and deviation of the radius, weighted by cross-section
+    const double mean = m3 / m2, deviation = safe_sqrt(m4 / m2 - mean * mean);
+    constexpr double same = 1e-3; // deviation, as a part of the mean, below which one radius is enough
     if (deviation < same * mean) {
         shares.push_back({kind.gsdf, &kind.moments, kind.material, mean, m2 / (mean * mean), albedo_at(kind, mean)});
         return;
     }
-    // By cross-section u parts of 1 at mean - deviation sqrt((1 - u) / u), the rest above: any u keeps mean and
-    // deviation; the radii stay above 0.
+    // A part u of the cross-section gets the radius mean - deviation sqrt((1 - u) / u), the rest the larger radius. Any
+    // u keeps mean and deviation; this u keeps the radii above 0.
     const double u = std::max(0.5, 1 / (1 + 0.25 * mean * mean / (deviation * deviation)));
     const double small = mean - deviation * std::sqrt((1 - u) / u), large = mean + deviation * std::sqrt(u / (1 - u));
     shares.push_back(

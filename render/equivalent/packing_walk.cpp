@@ -18,13 +18,13 @@ namespace {
 
 constexpr uint32_t batch_count = 64;
 
-/// What a batch of walks is besides its statistics.
+/// Counts of a batch of walks that are not part of its statistics.
 struct Tally {
-    double void_chords = 0, void_chord = 0; // how many, and their sum
+    double void_chords = 0, void_chord = 0; // number of chords in voids, and their total length
     uint64_t walks = 0, left = 0, scatterings = 0;
 };
 
-/// Where a line of random place and direction enters the proxies that it meets.
+/// A line of random position and direction, and its entries into proxies.
 struct Line {
     V3d start, direction;
     std::vector<Hit> entries;
@@ -37,7 +37,7 @@ public:
     {
     }
 
-    /// Lines of this length, of which walks start; 0: as far as the first entry.
+    /// A random line of this length, on which walks start; 0: it ends at its first entry.
     Line line(Sampler& sampler, double length) const
     {
         Line line;
@@ -57,7 +57,7 @@ public:
         return line;
     }
 
-    /// A walk from a proxy met by a ray along d, unless the ray passes straight through.
+    /// Makes a walk from a proxy that a ray along d hits; false if the ray passes straight through the proxy.
     bool walk(const Hit& entry, const V3d& d, uint32_t length, Sampler& sampler, WalkTrail& trail, Tally& tally) const
     {
         trail.clear();
@@ -92,7 +92,7 @@ private:
         return !gsdf(hit).always_met() && sampler.next() < gsdf(hit).alpha0(Encounter(hit.normal, d).q);
     }
 
-    /// The next thing that is not passed straight through.
+    /// The next hit that is not passed straight through.
     Hit fly(const V3d& o, const V3d& d, const Place& from, Sampler& sampler, Tally& tally) const
     {
         double beyond = 0, last_exit = 0;
@@ -158,7 +158,7 @@ Walked run(const Walker& walker, uint64_t seed, uint64_t scatterings, double lin
     return walked;
 }
 
-/// The mean way to the first grain along random lines: the length of line that meets about one.
+/// The mean distance to the first grain along random lines: a line of this length hits about one grain.
 double mean_entry_distance(const Walker& walker, const PackingWalkOptions& options)
 {
     double sum = 0, count = 0;
@@ -170,10 +170,10 @@ double mean_entry_distance(const Walker& walker, const PackingWalkOptions& optio
         ++count;
     }
     if (count < 128) {
-        throw InputError(
-            "walk in a packing",
-            fmt::format("{} of 256 rays from within {:g} of a place meet a grain", count, options.start_radius),
-            "a place deep in a packing", "start where grains are all around");
+        throw InputError("walk in a packing",
+                         fmt::format("only {} of 256 rays that start within {:g} of the walk's centre hit a grain",
+                                     count, options.start_radius),
+                         "a centre deep inside a packing", "start where grains are on all sides");
     }
     return sum / count;
 }
@@ -187,7 +187,7 @@ PackingWalk walk_packing(const World& world, const Tracer& tracer, const Packing
     for (const GrainType& type : world.types) {
         if (!type.gsdf)
             throw InputError("walk in a packing", fmt::format("grain type {} has no GSDF", type.name),
-                             "one for every type");
+                             "a GSDF for every grain type");
     }
     const Walker walker(world, tracer, options);
     const double line_length = mean_entry_distance(walker, options);
@@ -210,7 +210,7 @@ PackingWalk walk_packing(const World& world, const Tracer& tracer, const Packing
     result.half_transport_length = statistics.half_transport_length();
     const V3d albedo = statistics.albedo();
     for (int c = 0; c < 3; ++c) {
-        int same = 0; // channels of the same weights are the same
+        int same = 0; // channels with equal albedo share their result
         while (albedo[same] != albedo[c]) ++same;
         result.decay[static_cast<size_t>(c)] = same < c ? result.decay[static_cast<size_t>(same)] : statistics.decay(c);
     }

@@ -10,7 +10,7 @@ namespace scree {
 
 namespace {
 
-constexpr uint32_t chunk = 1 << 14; ///< spheres that one task looks at; fixed, as sums depend on it
+constexpr uint32_t chunk = 1 << 14; ///< spheres per task; fixed, as the rounding of sums depends on it
 constexpr int64_t farthest = int64_t{1} << 20;
 
 uint64_t key_of(int64_t x, int64_t y, int64_t z)
@@ -57,8 +57,7 @@ double volume_weighted_radius(std::span<const GrainStore::Sphere> spheres, const
     struct Sums {
         double cubes = 0, fourths = 0;
     };
-    // Products of radii in their own unit could leave the range of numbers; in a power of two near the largest they
-    // cannot.
+    // Powers of the radii could overflow or underflow, so the radii are scaled by a power of two near the largest.
     float largest = 0;
     for (const auto& s : spheres) largest = std::max(largest, s.r);
     if (!(largest > 0)) return 0;

@@ -10,14 +10,14 @@
 
 namespace scree {
 
-/// The mean radius of spheres, weighted by volume: what most of the material is made of.
+/// The mean radius of spheres, weighted by volume: the typical radius of the material.
 ///
-/// margin: by which the radii are widened. 0 without spheres. Summed in an order of its own: the same on any number of
-/// threads.
+/// margin: the margin that the given radii already include. 0 without spheres. The order of summation is fixed, so the
+/// result is the same for any number of threads.
 double volume_weighted_radius(std::span<const GrainStore::Sphere> spheres, const FloatMargin& margin);
 
-/// Which spheres concern which block of a lattice of voxels: a sorted list, as long as what is filled and not as the
-/// space is large.
+/// Assigns spheres to the blocks of a voxel lattice: a sorted list whose size depends on the filled blocks and not on
+/// the extent of the scene.
 ///
 /// A block is `edge` voxels along each side; its first voxel is edge * (x, y, z).
 class SphereBins {
@@ -33,17 +33,17 @@ public:
         Voxel block;
         std::span<const Entry> entries;
     };
-    /// Sets the first and last voxel that a sphere concerns; false: none.
+    /// Sets the first and last voxel that a sphere affects; returns false if it affects none.
     using Range = std::function<bool(uint32_t sphere, Voxel& first, Voxel& last)>;
 
-    /// count: of spheres. Throws InputError for voxels farther than 2^20 blocks from voxel 0.
+    /// count: number of spheres. Throws InputError for voxels farther than 2^20 blocks from voxel 0.
     SphereBins(uint32_t count, int edge, const Range& range);
 
     std::span<const Bin> bins() const { return bins_; }
 
 private:
     std::vector<Entry> entries_;
-    std::vector<Bin> bins_; ///< in order of their keys
+    std::vector<Bin> bins_; ///< ordered by key
 };
 
 } // namespace scree

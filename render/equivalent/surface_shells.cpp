@@ -22,7 +22,7 @@ struct Corners {
     }
 };
 
-/// Parts of a surface that no edge joins.
+/// The connected parts of a surface.
 struct Shells {
     std::vector<uint32_t> of_triangle;
     uint32_t count = 0;
@@ -57,7 +57,7 @@ V3d middle_of(const RegionSurface& surface)
     return bounds.isEmpty() ? V3d(0) : bounds.center();
 }
 
-/// Bounds of the cavities that are wide enough for a place `depth` from their walls.
+/// Bounds of the cavities that are wide enough for a point at distance `depth` from their walls.
 std::vector<Imath::Box3d> wide_cavities(const RegionSurface& surface, double depth)
 {
     const Shells shells(surface);
@@ -81,7 +81,7 @@ std::vector<Imath::Box3d> wide_cavities(const RegionSurface& surface, double dep
 
 bool is_balanced(const RegionSurface& surface)
 {
-    // An edge as its lower and higher vertex; its direction is the bit below.
+    // An edge as its lower and higher vertex, and whether it goes from the lower to the higher one.
     std::vector<std::pair<uint64_t, bool>> edges;
     edges.reserve(3 * surface.triangles.size());
     for (const auto& t : surface.triangles)
@@ -128,7 +128,7 @@ int winding_number(const RegionSurface& surface, const V3d& place)
         [&](const tbb::blocked_range<size_t>& range, double sum) {
             for (size_t t = range.begin(); t < range.end(); ++t) {
                 Corners p(surface, t, place);
-                // Directions have squares in any unit.
+                // Normalised first, as squares of very small or large lengths would leave the range of numbers.
                 p.a.normalize(), p.b.normalize(), p.c.normalize();
                 sum += 2 * std::atan2(p.a.dot(p.b.cross(p.c)), 1 + p.a.dot(p.b) + p.b.dot(p.c) + p.c.dot(p.a));
             }

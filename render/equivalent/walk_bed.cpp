@@ -10,7 +10,7 @@ namespace scree {
 
 namespace {
 
-/// Types by row of a tile: one of those that its spheres were seen to have.
+/// Chooses a type by the row of a tile: one of the types that the sample has in that row.
 class RowMixture : public Mixture {
 public:
     RowMixture(std::vector<std::vector<uint8_t>> types, uint8_t other) : types_(std::move(types)), other_(other) {}
@@ -25,7 +25,7 @@ private:
     uint8_t other_;
 };
 
-/// A tile of some of the sample's grains; fewer of them are as good a random packing. The rows are those of `taken`.
+/// A tile of 1000 grains that represent the sample; a random packing needs no more. taken: set to these grains.
 std::shared_ptr<const PackingTile> pack(const PackingSample& sample, std::vector<PackingSample::Grain>& taken,
                                         const Progress& progress)
 {
@@ -33,12 +33,12 @@ std::shared_ptr<const PackingTile> pack(const PackingSample& sample, std::vector
     std::vector<PackingSample::Grain> sorted = sample.grains;
     std::ranges::stable_sort(sorted, {}, &PackingSample::Grain::radius);
     std::vector<double> radii;
-    for (size_t i = 0; i < most; ++i) { // in order of size: one of every so many, or each several times
+    for (size_t i = 0; i < most; ++i) { // equally spaced in order of size; a small sample repeats grains
         taken.push_back(sorted[(2 * i + 1) * sorted.size() / (2 * most)]);
         radii.push_back(taken.back().radius);
     }
     constexpr double densest = 0.62, looser = 0.95,
-                     loosest = 0.5; // most sizes can be packed to the first, all to the last
+                     loosest = 0.5; // most size distributions can be packed to `densest`, all to `loosest`
     TileOptions options;
     options.variants = 1;
     for (double fraction = std::min(sample.pack_rate, densest);; fraction *= looser) {
@@ -69,7 +69,7 @@ BedWalk walk_like(const World& world, const PackingSample& sample, const Progres
         tile = std::shared_ptr<const PackingTile>(world.fill, &world.fill->fill().tile());
     } else {
         tile = pack(sample, grains, progress);
-        // Packing has put the rows into an order of its own: the smallest grain is the smallest sphere.
+        // Packing reorders the rows; grains and rows are matched by size.
         std::vector<uint64_t> rows(tile->rows());
         std::iota(rows.begin(), rows.end(), 0);
         std::ranges::stable_sort(rows, {}, [&](uint64_t row) { return tile->radius[row]; });
@@ -79,18 +79,18 @@ BedWalk walk_like(const World& world, const PackingSample& sample, const Progres
     std::vector<std::vector<uint8_t>> types(tile->rows());
     for (const PackingSample::Grain& grain : grains) types[grain.row].push_back(grain.type);
 
-    // Mean radii as the unit of length, whatever it is in the world.
+    // The bed's unit of length is the mean radius, whatever the unit of the world.
     const double unit =
         world.fill ? world.fill->fill().tile().mean_radius() * world.fill->fill().scale() * world.space.length(1)
                    : mean_of(grains);
-    const double half =
-        2000 / std::min(sample.pack_rate, 1.0); // no walk comes near the faces, and a larger cube costs no more
+    // So large that no walk comes near the faces; a larger cube costs nothing extra.
+    const double half = 2000 / std::min(sample.pack_rate, 1.0);
     World bed;
     bed.types = world.types;
     for (GrainType& type : bed.types) {
         type.material.absorption *= static_cast<float>(unit);
-        type.exemplar = nullptr; // grains are proxies
-        if (!type.gsdf) type.gsdf = world.types[grains.front().type].gsdf; // of no grain
+        type.exemplar = nullptr; // all grains are proxies
+        if (!type.gsdf) type.gsdf = world.types[grains.front().type].gsdf; // a type without grains; any GSDF will do
     }
     const auto fill = std::make_shared<ProceduralFill>(
         std::make_shared<const Domain>(box_mesh(V3d(-half), V3d(half)), "a cube"), tile, FillOptions{1, 0});

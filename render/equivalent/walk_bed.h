@@ -7,13 +7,13 @@ namespace scree {
 
 struct BedWalk {
     PackingWalk walk;
-    double pack_rate = 0; ///< of the packing walked in
+    double pack_rate = 0; ///< pack rate of the packing that was used
 };
 
-/// Walks in an endless packing like that of a world: its tile, or one packed of the sample's grains as densely, or as
-/// densely as they go.
+/// Walks in a practically endless packing like that of a world: in the tile of its fill, or in a tile of the sample's
+/// grains, packed to the same pack rate or as densely as possible.
 ///
-/// The lengths of the result are those of `world`. Throws InputError (grains that do not pack), Cancelled.
+/// The result has the unit of length of `world`. Throws InputError (grains that cannot be packed), Cancelled.
 BedWalk walk_like(const World& world, const PackingSample& sample, const Progress& progress);
 
 } // namespace scree

@@ -115,7 +115,7 @@ Measured WalkStatistics::diffusivity(Windows WalkBatch::*windows) const
     std::vector<double> above, below;
     for (const WalkBatch& batch : batches_) {
         const Windows& sums = batch.*windows;
-        // The last term is zero over all batches, and brings in how l* itself scatters.
+        // The last term sums to zero over all batches; it adds the statistical error of l*.
         const double of_l =
             (sums.transport - l * (sums.count - sums.direction)) * all.last / (all.count - all.direction);
         above.push_back(sums.own + sums.later + l * sums.last + of_l);
@@ -130,7 +130,8 @@ PackingDecay WalkStatistics::decay(int channel) const
     decay.albedo = albedo()[channel];
     if (decay.albedo >= 1) return decay;
     const uint32_t longest = batches_.empty() ? 0 : 2 * batches_.front().memory_;
-    // Few scatterings will do, but what they lose must be seen; of many, the few ways that lead far decide.
+    // Paths must be long enough for their loss to be measurable. With too many scatterings the result depends on the
+    // few paths that lead far.
     const double per_step = -std::log(std::max(decay.albedo, 1e-6)),
                  most = std::min<double>(longest, std::max(4.0, 2.5 / per_step));
     decay.steps = static_cast<uint32_t>(std::clamp(std::round(0.25 / per_step), 2.0, 0.5 * most));

@@ -13,37 +13,38 @@ namespace scree {
 
 /// A sparse field of 1 or 3 floats on a regular grid, in bricks of 8^3 cells.
 ///
-/// Field coordinates: cell (i, j, k) is the cube from (i, j, k) to (i + 1, j + 1, k + 1), its corners are voxel
-/// centres, and the field is trilinear in it (or, if nearest, the value of the corner (i, j, k)). A brick holds all 9^3
-/// corners of its cells, so that no lookup leaves it. Regions of 8^(3 l) bricks hang in a tree under a dense table of
-/// the largest.
+/// Field coordinates: cell (i, j, k) is the cube from (i, j, k) to (i + 1, j + 1, k + 1). The corners of a cell are
+/// voxel centres. The field is trilinear in a cell (or, if `nearest`, it is the value of the corner (i, j, k)). A brick
+/// stores all 9^3 corners of its cells, so that a lookup needs one brick only. Regions of 8^(3 l) bricks form a tree;
+/// the largest regions are in a dense table at its top.
 struct BrickField {
     static constexpr int32_t width = 8; ///< cells of a brick along an axis
-    static constexpr int32_t stride = 9; ///< corners
+    static constexpr int32_t stride = 9; ///< corners of a brick along an axis
     static constexpr size_t corners = size_t{stride} * stride * stride;
 
-    /// A region's values: those of a brick, plane by plane, x slowest; or one for each plane where it is constant.
+    /// The values of a region: all corners of a brick, plane by plane, x slowest; or one value per plane if it is
+    /// constant.
     struct Content {
         uint64_t offset = 0; ///< into values
         bool constant = false;
-        std::array<float, 3> low{0, 0, 0}, high{0, 0, 0}; ///< of each plane
+        std::array<float, 3> low{0, 0, 0}, high{0, 0, 0}; ///< range of each plane
     };
 
-    /// What a place lies in: one brick, or a larger region that is empty or constant.
+    /// The region that contains a point: one brick, or a larger region that is empty or constant.
     struct Region {
         int32_t content = -1; ///< -1: empty (the background)
-        int32_t size = 1; ///< in bricks along an axis, a power of 8
+        int32_t size = 1; ///< bricks along an axis, a power of 8
     };
 
     int planes = 1;
     bool nearest = false;
     std::array<float, 3> background{0, 0, 0};
-    std::array<int32_t, 3> bricks{0, 0, 0}; ///< along each axis; all 0: the field is empty
-    Imath::Box3d support; ///< around what is not background, in field coordinates
+    std::array<int32_t, 3> bricks{0, 0, 0}; ///< bricks along each axis; all 0: the field is empty
+    Imath::Box3d support; ///< bounds of all that is not background, in field coordinates
     std::vector<Content> contents;
     std::vector<float> values;
 
-    /// b: a brick, each component in 0..bricks-1.
+    /// The region that contains brick b; each component of b is in 0..bricks-1.
     Region find(const std::array<int32_t, 3>& b) const
     {
         const int top = 3 * levels;
@@ -59,18 +60,20 @@ struct BrickField {
         return {(entry & 3) == entry_content ? static_cast<int32_t>(entry >> 2) : -1, 1 << shift};
     }
 
-    /// One plane's value at a place of a brick, not constant, that begins at `low` (field coordinates); places outside
-    /// are moved to its faces. offset: the content's, plus `corners` for each plane before.
+    /// The value of one plane at point p of a non-constant brick. low: the first corner of the brick (field
+    /// coordinates); a point outside the brick is moved to its nearest face. offset: Content::offset, plus `corners`
+    /// for each earlier plane.
     double at_brick(uint64_t offset, const std::array<int32_t, 3>& low, const V3d& p) const;
 
-    /// The value anywhere.
+    /// The value at any point (field coordinates); the background outside `support`.
     std::array<double, 3> at(const V3d& p) const;
 
     uint64_t bytes() const;
 
-    // The tree. An entry is empty, a node or a content in its two low bits, and its index above.
+    // The tree. The two low bits of an entry say whether it is empty, a node or a content; the bits above are its
+    // index.
     static constexpr uint32_t entry_empty = 0, entry_node = 1, entry_content = 2;
-    int levels = 0; ///< of nodes below the table
+    int levels = 0; ///< levels of nodes below the table
     std::array<size_t, 3> root_size{0, 0, 0};
     std::vector<uint32_t> root;
     std::vector<std::array<uint32_t, 512>> nodes;
@@ -78,7 +81,7 @@ struct BrickField {
 
 inline double BrickField::at_brick(uint64_t offset, const std::array<int32_t, 3>& low, const V3d& p) const
 {
-    // Rounding may have put the place a little outside of the brick that the ray is in.
+    // Rounding may put the point slightly outside the brick that the ray is in.
     constexpr double last = width - 1;
     const double x = p.x - low[0], y = p.y - low[1], z = p.z - low[2];
     const double i = std::min(std::max(std::floor(x), 0.0), last), j = std::min(std::max(std::floor(y), 0.0), last),

@@ -27,11 +27,11 @@ Values values_of(const openvdb::math::Vec3<T>& v)
 constexpr int32_t width = BrickField::width;
 constexpr uint64_t most_root_entries = 1 << 15;
 
-/// A leaf or a tile of the tree that is not background.
+/// A leaf of the tree, or a tile that is not background.
 struct Item {
     CoordBBox box;
     bool is_tile;
-    Values value; // of a tile
+    Values value; // of a tile only
 };
 using Items = std::vector<uint32_t>;
 
@@ -40,7 +40,7 @@ struct BrickRange {
     std::array<int32_t, 3> lo, hi;
 };
 
-/// A brick whose values are to be filled in.
+/// A brick whose values are still to be filled in.
 struct Brick {
     std::array<int32_t, 3> low; // in bricks
     size_t content;
@@ -57,7 +57,7 @@ public:
         field_.background = values_of(grid.background());
     }
 
-    /// origin: the voxel that field coordinates 0 stand for.
+    /// origin: set to the voxel at field coordinates 0.
     BrickField build(Coord& origin)
     {
         collect_items();
@@ -107,7 +107,7 @@ private:
         }
     }
 
-    /// The bricks with a corner that the item decides.
+    /// The bricks that have a corner whose value depends on the item.
     BrickRange range_of(const Item& item) const
     {
         const int32_t beside = limits_.mean_beside ? 1 : 0;
@@ -151,7 +151,7 @@ private:
         }
     }
 
-    /// Deals the items out to the children of a region: n children along each axis, each 8^level bricks wide.
+    /// Distributes the items to the children of a region: n children along each axis, each 8^level bricks wide.
     std::vector<Items> deal(const Items& items, const std::array<int32_t, 3>& low, int level,
                             const std::array<size_t, 3>& n) const
     {
@@ -219,7 +219,8 @@ private:
         return static_cast<uint32_t>(field_.contents.size() - 1) << 2 | BrickField::entry_content;
     }
 
-    /// A region of 8^level bricks from brick `low` on. Children come before their parents in nodes.
+    /// Makes the entry of a region that begins at brick `low` and is 8^level bricks wide. In `nodes`, children come
+    /// before their parents.
     uint32_t entry(const Items& items, int level, const std::array<int32_t, 3>& low)
     {
         if (items.empty()) return BrickField::entry_empty;
@@ -272,7 +273,7 @@ private:
                                  static_cast<double>(n) / static_cast<double>(bricks_.size()));
         });
         if (progress_.cancelled()) throw Cancelled();
-        // Constant bricks keep one value: the others move up.
+        // Constant bricks keep one value, so the values of the others move to the front.
         size_t used = 0;
         for (size_t i = 0; i < bricks_.size(); ++i) {
             BrickField::Content& content = field_.contents[bricks_[i].content];
@@ -318,7 +319,7 @@ private:
                 }
         content.constant = content.low == content.high;
         if (used.isEmpty()) return;
-        // Cells beside a corner reach one on either side of it; of the nearest voxel, one on.
+        // A corner influences the cells on both sides of it; with `nearest`, only the cell that begins at it.
         const V3d place((brick[0] - origin_[0]) * width, (brick[1] - origin_[1]) * width,
                         (brick[2] - origin_[2]) * width);
         support = Imath::Box3d(place + used.min - V3d(reach_), place + used.max + V3d(1));
@@ -353,7 +354,7 @@ private:
     const FieldLimits& limits_;
     std::string place_;
     const Progress& progress_;
-    int32_t reach_; // of a cell beyond its lowest corner
+    int32_t reach_; // 1: a cell uses corners one beyond its lowest; 0: its lowest corner alone (nearest)
     std::vector<Item> items_;
     std::array<int32_t, 3> origin_{}; // in bricks
     std::vector<Brick> bricks_;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Private to what makes media: it shows OpenVDB's headers.
+// Private to the sources that build media: this header includes OpenVDB.
 
 #include "base/progress.h"
 #include "render/media/brick_field.h"
@@ -11,21 +11,20 @@
 
 namespace scree {
 
-/// What a field may hold, and how it is called in errors.
+/// Which values a field may have, and its name in error messages.
 struct FieldLimits {
     std::string name; ///< "density"
     std::string expected; ///< "finite densities of 0 or more"
     double low = 0, high = 0;
     bool open = false; ///< low and high themselves are excluded
-    bool vectors = false; ///< three components are taken too
-    bool mean_beside = false; ///< inactive voxels beside active ones count as the mean of those
+    bool vectors = false; ///< grids of three-component vectors are accepted too
+    bool mean_beside = false; ///< an inactive voxel gets the mean of its active neighbours, if it has any
 };
 
-/// Copies a grid of floats, doubles or vectors of them into bricks. origin: the voxel that field coordinates 0 stand
-/// for.
+/// Copies a grid of floats, doubles or vectors of them into bricks. origin: set to the voxel at field coordinates 0.
 ///
-/// Throws InputError for another type of grid, values that are not finite or outside of the limits (the background is
-/// not looked at), Cancelled.
+/// Throws InputError for another type of grid and for values that are not finite or outside the limits (the background
+/// is not checked); throws Cancelled.
 BrickField make_brick_field(const openvdb::GridBase& grid, const FieldLimits& limits, bool nearest,
                             const std::string& place, const Progress& progress, openvdb::Coord& origin);
 

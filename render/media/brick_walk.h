@@ -1,32 +1,34 @@
 #pragma once
 
-// Private to the medium: how a ray walks through the bricks of a field and through the cells of a brick.
+// Private to the medium: steps a ray through the bricks of a field and through the cells of a brick.
 
 #include "render/media/brick_field.h"
 
 namespace scree {
 
-/// A ray in field coordinates, with the parameter of the ray it was made from.
+/// A ray in field coordinates. Its parameter t is that of the original ray.
 struct FieldRay {
     V3d o, d;
-    V3d inverse; ///< 1 / d, or what stands for infinity where d is next to 0
-    std::array<int32_t, 3> step; ///< sign of d; 0 where d is next to 0: the ray does not get anywhere along that axis
-    std::array<int32_t, 3>
-        ahead; ///< the face where it leaves a cell, in cells from its low one; where step is 0 one beyond: never
+    V3d inverse; ///< 1 / d, or 1e290 instead of infinity where d is almost 0
+    std::array<int32_t, 3> step; ///< sign of d; 0 where d is almost 0: the ray does not move along that axis
+    /// The face through which the ray leaves a cell: 0 or 1 cells from its lower face; 2 (never reached) where step is
+    /// 0.
+    std::array<int32_t, 3> ahead;
 
     FieldRay(const V3d& origin, const V3d& direction) : o(origin), d(direction)
     {
         for (int k = 0; k < 3; ++k) {
             const size_t a = static_cast<size_t>(k);
             inverse[k] = 1 / d[k];
-            const bool moves = std::abs(inverse[k]) < 1e150; // far beyond any voxel's width, far below the other
+            // far larger than any voxel's width, far smaller than 1e290
+            const bool moves = std::abs(inverse[k]) < 1e150;
             if (!moves) inverse[k] = 1e290;
             step[a] = !moves ? 0 : d[k] > 0 ? 1 : -1;
             ahead[a] = !moves ? 2 : d[k] > 0 ? 1 : 0;
         }
     }
     V3d at(double t) const { return o + d * t; }
-    /// Narrows t0..t1 to the part inside of the box; false when nothing is left.
+    /// Narrows t0..t1 to the part inside the box; false when nothing is left.
     bool clip(const Imath::Box3d& box, double& t0, double& t1) const;
 };
 
@@ -44,10 +46,11 @@ inline bool FieldRay::clip(const Imath::Box3d& box, double& t0, double& t1) cons
     return t0 < t1;
 }
 
-/// Where a ray leaves the cell of `size` units that begins at low: through the faces whose distance is the exit (two or
-/// three of them in an edge or corner).
+/// Where a ray leaves the cell of `size` units that begins at `low`: through each face whose distance equals `exit`
+/// (two or three faces at an edge or corner).
 ///
-/// Every step moves on by a cell along an axis at least, and never back: rounding cannot make a walk loop.
+/// Every step advances by at least one cell along at least one axis and never goes back: rounding cannot make a walk
+/// loop.
 struct RayStep {
     std::array<double, 3> faces;
     double exit;
@@ -61,8 +64,8 @@ struct RayStep {
     bool leaves_through(size_t axis) const { return faces[axis] <= exit; }
 };
 
-/// Calls visit(content index, low corner in cells, t0, t1) for each region along t0..t1 that is not empty, in order,
-/// until it returns true.
+/// Calls visit(content index, low corner in cells, t0, t1) for each non-empty region along t0..t1, in order, until
+/// `visit` returns true.
 template <class Visit>
 void walk_bricks(const BrickField& field, const FieldRay& ray, double t0, double t1, Visit&& visit)
 {
@@ -108,8 +111,8 @@ void walk_bricks(const BrickField& field, const FieldRay& ray, double t0, double
     }
 }
 
-/// Calls visit(low corner of a cell, t0, t1) for each cell of the brick that begins at `low`, until it returns true;
-/// true if it did.
+/// Calls visit(low corner of a cell, t0, t1) for each cell along t0..t1 of the brick that begins at `low`, until
+/// `visit` returns true. Returns whether it did.
 template <class Visit>
 bool walk_cells(const FieldRay& ray, const std::array<int32_t, 3>& low, double t0, double t1, Visit&& visit)
 {

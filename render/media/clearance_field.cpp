@@ -9,9 +9,10 @@ namespace scree {
 
 namespace {
 
-constexpr double least_square = 8; ///< in voxels: below, the interpolation is not tried
+constexpr double least_square = 8; ///< squared voxels: below this the interpolation is not tried
 constexpr size_t entry_bits = 21;
-constexpr double most_lost = 0.03; ///< of the square, in the middle of an octant; elsewhere it may be some more
+/// part of the square that the interpolation may lose in the middle of an octant; elsewhere slightly more
+constexpr double most_lost = 0.03;
 
 float round_down(double x)
 {
@@ -35,11 +36,11 @@ ClearanceField::ClearanceField(std::span<const TriangleView> meshes, const Imath
         std::max({std::abs(lo.x), std::abs(lo.y), std::abs(lo.z), std::abs(hi.x), std::abs(hi.y), std::abs(hi.z)});
     if (!(farthest < 0x1p50))
         throw InputError("clearance field", "a box that is 2^50 times its size from the origin",
-                         "a box that can be told from a point");
+                         "a box that double precision can distinguish from a point");
     origin_ = box.min;
     voxel_ = longest / voxels;
     per_length_ = 1 / voxel_;
-    // What interpolation loses to rounding is below 2^-46 of the squares it goes between, which are alike where it is
+    // Rounding changes the interpolation by less than 2^-46 of the corner values, which are similar wherever it is
     // used.
     rounded_voxel_ = voxel_ * (1 - 0x1p-40);
     for (int k = 0; k < 3; ++k)
@@ -61,7 +62,7 @@ double ClearanceField::near(const V3d& place, int x, int y, int z, bool is_rough
     uint64_t packed = word.load(std::memory_order_relaxed);
     if (packed == 0) {
         const V3d middle = (origin_ + V3d(x + 0.5, y + 0.5, z + 0.5) * voxel_) * scale_;
-        // Half a diagonal, and what places and lattice are rounded by, at 2^50 boxes from the origin as well.
+        // Half a diagonal plus the rounding of points and lattice, valid up to 2^50 boxes from the origin.
         const double radius = (std::sqrt(0.75) * (1 + 0x1p-20)) * voxel_ * scale_ +
                               0x1p-48 * (std::abs(middle.x) + std::abs(middle.y) + std::abs(middle.z));
         const TriangleTree::Entries found = tree_.entries(middle, radius);
@@ -83,10 +84,11 @@ void ClearanceField::fill_squares(const Progress& progress)
                                       static_cast<size_t>(size_[2]) + 1};
     squares_.assign(count[0] * count[1] * count[2], 0);
     entries_ = std::make_unique<std::atomic<uint64_t>[]>(squares_.size());
-    std::vector<V3f> nearest(squares_.size()); // to lattice points, in voxels from the origin
+    // the nearest triangle point of each lattice point, in voxels from the origin
+    std::vector<V3f> nearest(squares_.size());
     const double per_voxel = per_length_ / scale_;
     const V3d first = origin_ * scale_;
-    // Lattice points are rounded, and places are found in their voxels up to rounding.
+    // Lattice points are rounded, and a point near a voxel's face may be assigned to the neighbouring voxel.
     const double rounding =
         0x1p-40 + 0x1p-50 * per_voxel * std::max({std::abs(first.x), std::abs(first.y), std::abs(first.z), 1.0});
     tbb::parallel_for(size_t{0}, count[0] * count[1], [&](size_t line) {
@@ -103,7 +105,7 @@ void ClearanceField::fill_squares(const Progress& progress)
     });
     if (progress.cancelled()) throw Cancelled();
 
-    // Those that are to be asked get a sign; other voxels may read them meanwhile, so it is set afterwards.
+    // Voxels that need the tree get a negative sign. It is set afterwards, because other voxels read these values here.
     std::vector<uint8_t> tight(squares_.size());
     tbb::parallel_for(size_t{0}, (count[0] - 1) * (count[1] - 1), [&](size_t line) {
         if (progress.cancelled()) return;
@@ -131,7 +133,7 @@ void ClearanceField::fill_squares(const Progress& progress)
     });
     if (progress.cancelled()) throw Cancelled();
     largest_ = (std::sqrt(double{*std::ranges::max_element(squares_)}) + std::sqrt(3.0)) *
-               voxel_; // a place may lie between those of the lattice
+               voxel_; // a point may lie between lattice points
     for (size_t i = 0; i < squares_.size(); ++i)
         if (!tight[i]) squares_[i] = -squares_[i];
 }

@@ -16,38 +16,40 @@
 
 namespace scree {
 
-/// How far it certainly is from a place to the nearest of many triangles: a walk that is shorter needs no test against
-/// them.
+/// Lower bounds of the distance from a point to the nearest of many triangles: a walk that is shorter needs no test
+/// against them.
 ///
-/// A dense lattice holds squares of distances, and a tree the triangles. d^2(p) - |p|^2 is the least of many affine
-/// functions and so concave (Cannarsa and Sinestrari 2004, 2.2): in a voxel it is nowhere below the interpolation
-/// between its values at the corners. That is the bound where it is known to be tight, and the tree's distance
-/// elsewhere. Keeps no reference to the meshes.
+/// A dense lattice stores squared distances, and a tree stores the triangles. d^2(p) - |p|^2 is the minimum of many
+/// affine functions and so concave (Cannarsa and Sinestrari 2004, 2.2): inside a voxel it is never below the
+/// interpolation of its corner values. The interpolation is the bound in voxels where it is known to be tight;
+/// elsewhere the tree gives the bound. Keeps no reference to the meshes.
 class ClearanceField {
 public:
-    /// Knows nothing: the clearance is 0 everywhere.
+    /// The empty field: its clearance is 0 everywhere.
     ClearanceField() = default;
-    /// box: where places will be asked about; triangles beyond it count as well. voxels: along its longest edge. Throws
-    /// InputError (an infinite box or triangle, one 2^100 boxes away, a box 2^50 times its size from the origin, voxels
-    /// not in 1..1024), Cancelled.
+    /// box: bounds of the points that will be queried; triangles outside it count as well. voxels: along its longest
+    /// edge. Throws InputError (a box or triangle that is not finite, a triangle 2^100 boxes away, a box 2^50 times its
+    /// size from the origin, voxels not in 1..1024), Cancelled.
     ClearanceField(std::span<const TriangleView> meshes, const Imath::Box3d& box, const Progress& progress,
                    int voxels = 64);
 
-    /// A lower bound of the distance from a place to the nearest triangle; 0 outside of the box; infinite where there
-    /// are none. From 1e-6 of the box on at least 0.97 of it in all tests, mostly above 0.999 near triangles; less only
-    /// within 1e-5 of needles whose normals double hardly knows.
+    /// A lower bound of the distance from a point to the nearest triangle; 0 outside the box; infinite if there are no
+    /// triangles. For distances of 1e-6 of the box or more the bound was at least 0.97 of the distance in all tests,
+    /// mostly above 0.999 near triangles. It is lower only within 1e-5 of needle triangles, whose normals are
+    /// inaccurate even in double precision.
     double clearance(const V3d& place) const { return clearance(place, 1, 0); }
-    /// Likewise, mostly at least 0.7 of the distance, or 0 where it is not more than `least`, in less time near the
-    /// triangles.
+    /// A rougher bound that takes less time near the triangles: mostly at least 0.7 of the distance; may be 0 where the
+    /// distance is `least` or less.
     double rough_clearance(const V3d& place, double least = 0) const { return clearance(place, 0.5, least); }
 
-    /// Of all places in the box, or more than that.
+    /// An upper bound of the clearance over the box.
     double largest() const { return largest_; }
     double voxel() const { return voxel_; }
     uint64_t bytes() const { return squares_.size() * (sizeof(float) + sizeof(uint64_t)) + tree_.bytes(); }
 
 private:
-    /// enough: part of the square of the distance that the interpolation must find, lest the tree be asked.
+    /// enough: the interpolation is used if it gives at least this part of the squared distance; otherwise the tree is
+    /// queried.
     double clearance(const V3d& place, double enough, double least) const
     {
         const V3d index = (place - origin_) * per_length_;
@@ -79,7 +81,7 @@ private:
         };
         const double low = (1 - ty) * along_z(0) + ty * along_z(step_[1]),
                      high = (1 - ty) * along_z(step_[0]) + ty * along_z(step_[0] + step_[1]);
-        // The interpolation of |p|^2 is above it by this.
+        // The interpolation of |p|^2 exceeds |p|^2 by the second term.
         return (1 - tx) * low + tx * high - (tx * (1 - tx) + ty * (1 - ty) + tz * (1 - tz));
     }
     void fill_squares(const Progress& progress);
@@ -89,11 +91,13 @@ private:
     double largest_ = 0;
     std::array<int, 3> size_{0, 0, 0};
     std::array<size_t, 2> step_{0, 0};
-    std::vector<float> squares_; ///< of distances of lattice points, in voxels, rounded down; negative or 0 where the
-                                 ///< tree is to be asked in the voxel above
+    /// Squared distances of the lattice points, in voxels, rounded down. Negative or 0 at a voxel's lowest corner:
+    /// query the tree for points in that voxel.
+    std::vector<float> squares_;
     TriangleTree tree_;
-    /// Of voxels where the tree is asked: its entries for them, of 21 bits each, and a bit that is set. Found when
-    /// first asked; whoever else finds them meanwhile finds the same, so that no order is needed.
+    /// The tree's entries for each voxel where the tree is queried: 21 bits each, plus the top bit, which marks them as
+    /// known. They are computed at the first query. Threads that compute them at the same time get the same result, so
+    /// that relaxed memory order is enough.
     std::unique_ptr<std::atomic<uint64_t>[]> entries_;
 };
 

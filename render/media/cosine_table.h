@@ -6,7 +6,7 @@
 
 namespace scree {
 
-/// Cosines of scattering angles in bins of equal width from -1 to 1: the phase function of a table.
+/// A tabulated phase function: the density of the scattering cosine in bins of equal width from -1 to 1.
 struct CosineTable {
     static constexpr uint32_t bins = 64;
     std::array<double, bins> density{}; ///< per unit of cosine; integrates to 1

@@ -13,10 +13,11 @@ using Kind = DensityRegion::Kind;
 using Sigma = GridMediumData::Sigma;
 using Cell = std::array<int32_t, 3>;
 
-/// The density along a piece of a ray in one cell: a cubic in 0..1 times its length (three linear factors).
+/// sigma_t along the part of a ray inside one cell: a cubic (three linear factors) in s, where s in 0..1 is the
+/// distance over `length`.
 ///
-/// From its values at 0, 1/3, 2/3 and 1. Its integral is Simpson's 3/8 rule, exact for cubics and a sum of what is not
-/// negative.
+/// f: its values at s = 0, 1/3, 2/3 and 1. Its integral by Simpson's 3/8 rule is exact for cubics, and is a sum of
+/// terms that are not negative.
 struct CubicDensity {
     std::array<double, 4> f;
     double length;
@@ -27,7 +28,7 @@ struct CubicDensity {
         const std::array<double, 4> c = coefficients();
         return std::max(0.0, c[0] + s * (c[1] + s * (c[2] + s * c[3])));
     }
-    /// s where the integral over 0..s is `depth`, by Newton's method inside of a shrinking bracket.
+    /// The s for which the integral over 0..s is `depth`, by Newton's method inside a shrinking bracket.
     double find(double depth) const
     {
         const std::array<double, 4> c = coefficients();
@@ -60,14 +61,14 @@ public:
     {
     }
 
-    /// False for rays that lead nowhere, of numbers that are not finite.
+    /// False for a ray with values that are not finite, or that moves along no axis.
     bool is_sound() const
     {
         const V3d sum = ray_.o + ray_.d;
         return std::isfinite(sum.x + sum.y + sum.z) && (ray_.step[0] != 0 || ray_.step[1] != 0 || ray_.step[2] != 0);
     }
 
-    /// Where it scatters, if it does.
+    /// The t at which it scatters, if it does.
     std::optional<double> event(double t0, double t1, Sampler& sampler) const;
     std::optional<double> chromatic_event(double t0, double t1, SpectralState& state, Sampler& sampler) const;
     double transmittance(double t0, double t1, Sampler& sampler) const;
@@ -87,7 +88,8 @@ private:
         return medium_.sigma_of(density);
     }
 
-    /// Where a cell's cubic is known from; on faces the nearest voxel could be the neighbour's.
+    /// The four points at which a cell's cubic is sampled. With `nearest` all are the cell's middle: on a face the
+    /// nearest voxel could be the neighbour's.
     std::array<V3d, 4> nodes(const Cell& cell, double t0, double t1) const
     {
         const V3d middle(cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5);
@@ -120,7 +122,7 @@ private:
 
 std::optional<double> Walk::event(double t0, double t1, Sampler& sampler) const
 {
-    double depth = draw_optical_depth(sampler); // what is left until the next collision
+    double depth = draw_optical_depth(sampler); // remaining until the next collision
     std::optional<double> scattered;
     walk_bricks(field_, ray_, t0, t1, [&](int32_t index, const Cell& low, double from, double to) {
         const DensityRegion& region = regions(index);
@@ -142,7 +144,7 @@ std::optional<double> Walk::event(double t0, double t1, Sampler& sampler) const
                 return false;
             }
             from += depth / region.majorant;
-            // What is real whatever the density there needs no lookup.
+            // Below region.least a collision is real whatever the density there, so no lookup is needed.
             const double u = region.least < region.majorant ? sampler.next() * region.majorant : 0;
             if (u < region.least || u < sigma_at(region, low, ray_.at(from))) {
                 scattered = from;
@@ -159,14 +161,15 @@ std::optional<double> Walk::chromatic_event(double t0, double t1, SpectralState&
     const size_t hero = state.hero;
     double depth = draw_optical_depth(sampler);
     std::optional<double> scattered;
-    // Density of this walk in channel c over that in the hero's. What the path brings in c has the same factors: the
-    // collisions of a walk are as likely as they are bright. Its mean over walks is 1, so that it does not overflow.
+    // Probability density of this walk if channel c were the hero, over its density for the actual hero. The
+    // contribution of the path in channel c has the same factors. The mean of the ratio over walks is 1, so that it
+    // does not overflow.
     std::array<double, 3> ratio{1, 1, 1};
     const auto pass = [&](const Sigma& passed) {
         for (size_t c = 0; c < 3; ++c) ratio[c] *= std::exp(passed[hero] - passed[c]);
     };
     const auto collide = [&](const Sigma& sigma) {
-        if (sigma[hero] > 0) // rounding can find a collision where the density begins
+        if (sigma[hero] > 0) // rounding can place a collision where the density is still 0
             for (size_t c = 0; c < 3; ++c) ratio[c] *= sigma[c] / sigma[hero];
     };
     walk_bricks(field_, ray_, t0, t1, [&](int32_t index, const Cell& low, double from, double to) {

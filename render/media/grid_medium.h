@@ -8,23 +8,23 @@
 
 namespace scree {
 
-/// How the numbers of the grids are to be read.
+/// How the values of the grids are interpreted.
 struct GridMediumOptions {
     Color scale{1}; ///< sigma_t = scale * density, per unit of length of the scene
-    Weight albedo{1}; ///< where there is no albedo grid
-    double g = 0; ///< where there is no grid of g
+    Weight albedo{1}; ///< used if there is no albedo grid
+    double g = 0; ///< used if there is no grid of g
     bool nearest = false; ///< no interpolation: sigma_t, albedo and g are constant over a voxel
 };
 
 struct GridMediumData;
 
-/// A participating medium whose sigma_t, albedo and g stand in sparse grids; safe to use from many threads.
+/// A participating medium whose sigma_t, albedo and g are stored in sparse grids; safe to use from many threads.
 ///
-/// All places, directions and lengths are in render coordinates. Trilinear between voxel centres (or nearest). Grids
-/// are kept as bricks of 8^3 cells with a majorant each, and bricks without density are stepped over many at a time.
-/// Within a brick: delta tracking (Woodcock 1965) and residual ratio tracking (Novak et al. 2014); where a brick is
-/// constant, or so dense and uneven that these would take many steps, the optical depth of the interpolant in closed
-/// form instead. So the steps that a walk takes are bounded in the mean whatever the densities are. Made by
+/// All points, directions and lengths are in render coordinates. Values are trilinear between voxel centres (or
+/// nearest). Grids are stored as bricks of 8^3 cells, each with a majorant; a walk skips many empty bricks at once.
+/// Inside a brick it uses delta tracking (Woodcock 1965) and residual ratio tracking (Novak et al. 2014). If a brick is
+/// constant, or so dense and uneven that tracking would take many steps, it uses the closed form of the interpolant's
+/// optical depth instead. So the mean number of steps of a walk is bounded for any densities. Made by
 /// make_grid_medium() and read_vdb_medium().
 class GridMedium final : public Medium {
 public:

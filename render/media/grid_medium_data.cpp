@@ -4,8 +4,8 @@ namespace scree {
 
 namespace {
 
-/// A brick is walked cell by cell where delta tracking through it could take more than this many steps, and most of
-/// them for nothing. Not less: through a cloud whose bricks are 60 deep, delta tracking was still the faster by half.
+/// A brick is traversed cell by cell if delta tracking could take more steps than this, most of them null collisions. A
+/// lower limit is slower: in a cloud whose bricks have optical depth 60, delta tracking was still faster by half.
 constexpr double most_steps = 256;
 
 } // namespace
@@ -14,7 +14,7 @@ void GridMediumData::prepare()
 {
     const BrickField& field = density.field;
     achromatic = field.planes == 1 && scale[0] == scale[1] && scale[0] == scale[2];
-    double edge = 0; // the longest of a cell
+    double edge = 0; // longest edge of a cell
     for (int k = 0; k < 3; ++k) edge = std::max(edge, density.to_render.vector(V3d(k == 0, k == 1, k == 2)).length());
     regions.clear();
     least.clear();
@@ -32,7 +32,7 @@ void GridMediumData::prepare()
             region.residual_majorant = std::max(region.residual_majorant, high[c] - low[c]);
         }
         using Kind = DensityRegion::Kind;
-        // In a brick that is even enough, a fair part of the collisions are real: it may be as dense as it likes.
+        // In a brick that is even enough, a good part of the collisions are real, so tracking is fast at any density.
         const double smallest = achromatic ? low[0] : std::min({low[0], low[1], low[2]});
         const bool is_long =
             region.majorant * edge * BrickField::width > most_steps && smallest < 0.25 * region.majorant;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Private to the medium: what a GridMedium is made of.
+// Private to the medium: the data of a GridMedium.
 
 #include "render/media/brick_field.h"
 #include "render/media/grid_medium.h"
@@ -16,7 +16,7 @@ struct Affine {
     V3d vector(const V3d& v) const { return V3d(rows[0].dot(v), rows[1].dot(v), rows[2].dot(v)); }
 };
 
-/// A field and where it lies.
+/// A field and its transform.
 struct PlacedField {
     BrickField field;
     Affine to_field; ///< from render to field coordinates
@@ -25,27 +25,27 @@ struct PlacedField {
     std::array<double, 3> at(const V3d& p) const { return field.at(to_field.point(p)); }
 };
 
-/// How a walk deals with one content of the density field.
+/// How a walk traverses one content of the density field: constant, by tracking, or cell by cell in closed form.
 struct DensityRegion {
     enum class Kind : uint64_t { constant, delta, exact };
     double majorant = 0; ///< largest sigma_t of any channel
-    double least = 0; ///< sigma_t of the first channel
-    double residual_majorant = 0; ///< largest of any channel's sigma_t less its least
-    uint64_t offset : 62 = 0; ///< of the values
+    double least = 0; ///< smallest sigma_t of the first channel
+    double residual_majorant = 0; ///< largest sigma_t minus smallest sigma_t, maximum over channels
+    uint64_t offset : 62 = 0; ///< Content::offset
     Kind kind : 2 = Kind::constant;
 };
 
 struct GridMediumData {
     PlacedField density;
     std::vector<DensityRegion> regions; ///< one for each content of the density
-    std::vector<std::array<double, 3>> least; ///< sigma_t of each channel in each region, if not achromatic
+    std::vector<std::array<double, 3>> least; ///< smallest sigma_t of each channel in each region, if not achromatic
     std::array<double, 3> scale{}; ///< sigma_t of density 1, per unit of render length
     bool achromatic = true;
     bool has_albedo = false, has_g = false;
     PlacedField albedo, g;
     GridMediumOptions options;
 
-    /// Fills regions, achromatic: from what else is there.
+    /// Computes `regions`, `least` and `achromatic` from the other members.
     void prepare();
 
     using Sigma = std::array<double, 3>;

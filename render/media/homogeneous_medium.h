@@ -10,7 +10,7 @@ namespace scree {
 /// A medium that is the same everywhere; lengths in render coordinates.
 class HomogeneousMedium final : public Medium {
 public:
-    /// sigma_t: extinction coefficient, 0 or more. albedo: 0..1. g: of Henyey and Greenstein, -1 < g < 1.
+    /// sigma_t: extinction coefficient, 0 or more. albedo: 0..1. g: Henyey-Greenstein asymmetry, -1 < g < 1.
     HomogeneousMedium(const Imath::V3d& sigma_t, const Weight& albedo, double g);
     HomogeneousMedium(const Imath::V3d& sigma_t, const Weight& albedo, std::shared_ptr<const PhaseTable> table);
 

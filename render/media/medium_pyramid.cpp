@@ -9,9 +9,11 @@ namespace scree {
 namespace {
 
 constexpr double most_cells = 1 << 20; ///< of the first level
-constexpr double finest_samples = 0.75; ///< apart, in voxels: what a voxel holds is seen wherever cubes begin
-constexpr double rounded = 1e-6; ///< what sums in single precision are off by; of what has no unit
-constexpr double slack = 4 * rounded; ///< likewise, where no ball is to be left out that is_same()
+/// spacing in voxels: below 1, so that every voxel is sampled wherever the cubes begin
+constexpr double finest_samples = 0.75;
+constexpr double rounded = 1e-6; ///< rounding error of sums in single precision, for quantities without unit
+/// a safe multiple of it, for tests that must not reject a ball that is_same() accepts
+constexpr double slack = 4 * rounded;
 
 } // namespace
 
@@ -81,7 +83,7 @@ MediumPyramid::MediumPyramid(const Medium& medium, const Imath::Box3d& box, doub
                 const V3d low =
                     origin_ + width_ * V3d(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
                 Cell& cell = first.cells[static_cast<size_t>((x * first.size[1] + y) * first.size[2] + z)];
-                // Row by row and plane by plane: a sum of so many in single precision would drift.
+                // Sums row by row and plane by plane: one sum of so many terms in single precision would be inaccurate.
                 for (int i = 0; i < samples; ++i) {
                     Cell plane;
                     for (int j = 0; j < samples; ++j) {
@@ -109,8 +111,8 @@ MediumPyramid::MediumPyramid(const Medium& medium, const Imath::Box3d& box, doub
         add_level();
     }
     fill_promising();
-    // No mean is above the largest sigma_t and albedo of all cubes. The rest is asked of somewhat larger ones: single
-    // grains are no medium.
+    // No mean exceeds the largest sigma_t and albedo of all cubes. The other extremes are taken over cubes of the next
+    // level: single grains are not a medium.
     for (const Cell& cell : levels_[0].cells) {
         if (!(cell.sigma_t > 0)) continue;
         extremes_.sigma_t_high = std::max(extremes_.sigma_t_high, double{cell.sigma_t});
@@ -139,7 +141,7 @@ void MediumPyramid::add_level()
                     const int64_t i = 2 * x + (part & 1), j = 2 * y + (part >> 1 & 1), k = 2 * z + (part >> 2);
                     if (i >= below.size[0] || j >= below.size[1] || k >= below.size[2]) continue;
                     Cell own = below.at(i, j, k);
-                    own.forget_range(); // the mean of the part, not what is within it
+                    own.forget_range(); // use the mean of the part, not the variation inside it
                     cell.add(own, 1 / static_cast<Real>(parts));
                 }
             }
@@ -159,7 +161,8 @@ void MediumPyramid::fill_promising()
                 for (int64_t z = 0; z < level.size[2]; ++z) {
                     uint32_t bits =
                         number + 1 < levels_.size() ? above[levels_[number + 1].index(x / 2, y / 2, z / 2)] : 0;
-                    // Two levels below that of a ball it is known which cubes it meets for certain.
+                    // Two levels below the ball's level, the cube of its centre decides which cubes the ball certainly
+                    // overlaps.
                     for (size_t of = number > 0 ? number + 2 : 0; of <= number + 2 && of < levels_.size(); ++of) {
                         if (may_hold(of, number, {x, y, z})) bits |= uint32_t{1} << of;
                     }
@@ -174,10 +177,10 @@ void MediumPyramid::fill_promising()
 bool MediumPyramid::may_hold(size_t number, size_t finer, const std::array<int64_t, 3>& cube) const
 {
     const Level& level = levels_[number];
-    // A ball is wider than half a cube, but for the first level, and not wider than one: from the outer quarters of its
-    // centre's cube it reaches into the next.
+    // Except on the first level, a ball is wider than half a cube of its level and not wider than one cube. So a ball
+    // with its centre in an outer quarter of a cube reaches into the next cube.
     std::array<int64_t, 3> own, next;
-    double share = 1; // of the ball, by width, in its centre's cube at least
+    double share = 1; // least part of the ball, by width, that is in its centre's cube
     for (size_t k = 0; k < 3; ++k) {
         own[k] = next[k] = cube[k] >> (number - finer);
         const int64_t quarter = number - finer == 2 ? cube[k] & 3 : -1;
@@ -192,7 +195,8 @@ bool MediumPyramid::may_hold(size_t number, size_t finer, const std::array<int64
             for (const int64_t z : {own[2], next[2]}) range.add(level.at(x, y, z), 1);
         }
     }
-    // What is_same() asks of all cubes that a ball meets, and of their mean, can be so only if it is of these.
+    // The conditions of is_same(), which cover all cubes that a ball overlaps and their mean, can hold only if they
+    // hold for the cubes here.
     const auto close = [this](double low, double high) {
         return (high - slack) * (1 - tolerance_) <= (low + slack) * (1 + tolerance_);
     };
@@ -231,7 +235,7 @@ bool MediumPyramid::halve_until_same(const V3d& centre, double& radius, MediumMe
 {
     if (levels_.empty()) return false;
     std::array<int64_t, 3> cube;
-    double room = width_; // around the place, within its cube of the first level
+    double room = width_; // distance from the centre to the faces of its cube of the first level
     for (int k = 0; k < 3; ++k) {
         const double at = (centre[k] - origin_[k]) / width_,
                      size = static_cast<double>(levels_[0].size[static_cast<size_t>(k)]);
@@ -249,11 +253,11 @@ bool MediumPyramid::halve_until_same(const V3d& centre, double& radius, MediumMe
         if (level == 0) {
             if ((promising & 1) == 0) return false;
             densest = std::min(densest,
-                               double{levels_[0].cells[own].sigma_t} / (1 - most_off_)); // of balls that are the same
+                               double{levels_[0].cells[own].sigma_t} / (1 - most_off_)); // bound for homogeneous balls
             if (!(radius * densest >= 1)) return false;
         }
         if ((promising >> level & 1) != 0 && is_same(centre, radius, level, mean)) return true;
-        if (radius < room) return false; // smaller ones are in the same cube
+        if (radius < room) return false; // smaller balls lie in the same cube
     }
     return false;
 }
@@ -261,16 +265,16 @@ bool MediumPyramid::halve_until_same(const V3d& centre, double& radius, MediumMe
 bool MediumPyramid::is_same(const V3d& centre, double radius, size_t number, MediumMean& mean) const
 {
     if (levels_.empty()) return false;
-    // The cubes of the level are as wide as the ball: it meets two of them along an axis at most.
+    // The cubes of the level are at least as wide as the ball: it overlaps at most two of them along an axis.
     const Level& level = levels_[number];
     const double width = level.width;
     std::array<int64_t, 3> first, last;
-    std::array<std::array<double, 2>, 3> share; // of the ball's width, of the first and of the last cube
+    std::array<std::array<double, 2>, 3> share; // part of the ball's width in the first and in the last cube
     for (int k = 0; k < 3; ++k) {
         const auto a = static_cast<size_t>(k);
         const double lo = (centre[k] - radius - origin_[k]) / width, hi = (centre[k] + radius - origin_[k]) / width;
         const double end = static_cast<double>(level.size[a]);
-        if (!(lo >= -1e-9 && hi <= end + 1e-9)) return false; // a ball within the region does not
+        if (!(lo >= -1e-9 && hi <= end + 1e-9)) return false; // never true for a ball inside the region
         first[a] = static_cast<int64_t>(std::clamp(std::floor(lo), 0.0, end - 1));
         last[a] = static_cast<int64_t>(std::clamp(std::floor(hi), 0.0, end - 1));
         share[a][1] = last[a] > first[a] && hi > lo ? (hi - static_cast<double>(last[a])) / (hi - lo) : 0;
@@ -284,7 +288,7 @@ bool MediumPyramid::is_same(const V3d& centre, double radius, size_t number, Med
                 const Cell& cell = level.at(x, y, z);
                 lowest = std::min(lowest, cell.sigma_low);
                 highest = std::max(highest, cell.sigma_high);
-                if (!may_be_close(lowest, highest)) return false; // most that are not the same are found out here
+                if (!may_be_close(lowest, highest)) return false; // rejects most balls that are not homogeneous
                 ball.add(cell,
                          static_cast<Real>(share[0][x > first[0]] * share[1][y > first[1]] * share[2][z > first[2]]));
             }

@@ -9,34 +9,37 @@
 
 namespace scree {
 
-/// What a medium is in the mean over a part of it.
+/// Mean coefficients of a medium over a part of it.
 struct MediumMean {
     double sigma_t = 0;
-    Weight albedo{1}; ///< by what it scatters
-    double g = 0; ///< likewise
+    Weight albedo{1}; ///< weighted by sigma_t
+    double g = 0; ///< weighted by what the brightest channel scatters
 };
 
-/// Means of an achromatic medium of grids over cubes of growing size, and how much it varies within: where it counts as
-/// the same for light that goes a long way. What varies over a short way averages out, and does not count.
+/// Means of an achromatic grid medium over cubes of growing size, and its variation inside them. They tell where the
+/// medium is homogeneous enough for light that travels a long distance. Variation over short distances averages out and
+/// is ignored.
 class MediumPyramid {
 public:
-    /// box: where places will be asked about; render coordinates. tolerance: of sigma_t, 1 - albedo and 1 - g, as parts
-    /// of their means: what the means of eight parts of a cube may be off by, and twice the standard deviation of all
-    /// that is in it. thin: mean free paths across cubes in which what varies does not count. Throws Cancelled.
+    /// box: bounds of the points that will be queried; render coordinates. tolerance: of sigma_t, 1 - albedo and 1 - g,
+    /// relative to their means; it limits both the deviation of the means over the eight parts of a cube and twice the
+    /// standard deviation over the cube. thin: variation inside cubes less than `thin` mean free paths wide is ignored.
+    /// Throws Cancelled.
     MediumPyramid(const Medium& medium, const Imath::Box3d& box, double tolerance, double thin,
                   const Progress& progress);
 
-    /// Whether the medium is the same in a ball, within the tolerance; mean: over the ball, about.
+    /// Whether the medium is homogeneous in a ball, within the tolerance. mean: set to the approximate mean over the
+    /// ball.
     bool is_same(const V3d& centre, double radius, MediumMean& mean) const
     {
         return is_same(centre, radius, level_of(radius), mean);
     }
-    /// Halves a ball's radius until the medium is the same in it; false: in none with a radius of a mean free path or
-    /// more. Finds what asking is_same() of each would, at next to no cost where there is none.
+    /// Halves a ball's radius until the medium is homogeneous in it; false if no radius of a mean free path or more is
+    /// found. Same result as calling is_same() for each radius, but almost free where there is no such ball.
     bool halve_until_same(const V3d& centre, double& radius, MediumMean& mean) const;
 
-    /// Between which its means over small cubes lie; of the albedo that of the brightest channel. No mean is above the
-    /// highest sigma_t and albedo.
+    /// The range of the means over small cubes; the albedo is that of the brightest channel. No mean of MediumMean
+    /// exceeds sigma_t_high or albedo_high.
     struct Extremes {
         double sigma_t_high = 0, albedo_low = 1, albedo_high = 0, g_low = 1, g_high = -1;
     };
@@ -44,29 +47,30 @@ public:
     uint64_t bytes() const;
 
 private:
-    /// Means over a cube, the range of those of the eight cubes within, and means of squares over all that does not
-    /// average out.
+    /// Means over a cube, the range of the means of its eight parts, and means of squares over all variation that does
+    /// not average out.
     struct Cell {
-        Real sigma_t = 0, lost[3] = {0, 0, 0},
-             forward = 0; ///< extinction; times 1 - albedo; what the brightest channel scatters, times g
-        Real sigma_low = 0, sigma_high = 0, loss_low = 0, loss_high = 0, back_low = 0,
-             back_high = 0; ///< of sigma_t, 1 - albedo, 1 - g
-        Real sigma_square = 0, loss_square = 0,
-             back_square = 0; ///< of sigma_t; of the others, times sigma_t and times what is scattered
+        /// Extinction; extinction times 1 - albedo, per channel; scattering of the brightest channel times g.
+        Real sigma_t = 0, lost[3] = {0, 0, 0}, forward = 0;
+        /// Ranges of sigma_t, 1 - albedo and 1 - g.
+        Real sigma_low = 0, sigma_high = 0, loss_low = 0, loss_high = 0, back_low = 0, back_high = 0;
+        /// Mean squares: of sigma_t; of 1 - albedo, weighted by sigma_t; of 1 - g, weighted by the scattering of the
+        /// brightest channel.
+        Real sigma_square = 0, loss_square = 0, back_square = 0;
 
         Real least_lost() const { return std::min({lost[0], lost[1], lost[2]}); }
         Real brightest() const { return sigma_t - least_lost(); }
         Real loss() const { return sigma_t > 0 ? least_lost() / sigma_t : 0; }
         Real back() const { return brightest() > 0 ? 1 - forward / brightest() : 1; }
         double variance() const { return double{sigma_square} - double{sigma_t} * sigma_t; } ///< of sigma_t
-        /// Adds what is in another; the ranges become those of both.
+        /// Adds another cell with a weight; the ranges become the union of both.
         void add(const Cell& other, Real weight);
-        /// As if it were the same all over.
+        /// Sets the ranges, or the squares, to those of a homogeneous cell with the same means.
         void forget_range();
         void forget_squares();
     };
     struct Level {
-        double width = 0; ///< of a cube
+        double width = 0; ///< edge of a cube
         std::array<int64_t, 3> size{};
         std::vector<Cell> cells;
         size_t index(int64_t x, int64_t y, int64_t z) const
@@ -77,25 +81,26 @@ private:
     };
     static Cell cell_at(const Medium& medium, const V3d& place);
     void add_level();
-    /// Of balls of a radius: its cubes are as wide as they are.
+    /// The level for balls of a radius: the finest whose cubes are at least as wide as the ball.
     size_t level_of(double radius) const;
     bool is_same(const V3d& centre, double radius, size_t level, MediumMean& mean) const;
-    /// Whether all sigma_t between these can be within the tolerance of one.
+    /// Whether low and high can both be within the tolerance of one mean sigma_t.
     bool may_be_close(double low, double high) const { return high * (1 - most_off_) <= low * (1 + most_off_); }
-    /// Whether a ball of a level can be the same, with a radius of a mean free path, if its centre is in this cube of
-    /// the level `finer`: false only if none is.
+    /// Whether a ball of `level`, with a radius of a mean free path or more and its centre in this cube of the level
+    /// `finer`, can be homogeneous: false only if no such ball is.
     bool may_hold(size_t level, size_t finer, const std::array<int64_t, 3>& cube) const;
-    /// Of sigma_t within any cube of the first level that a ball may meet with its centre in this one.
+    /// The least variance of sigma_t in any cube of the first level that a ball with its centre in this cube can
+    /// overlap.
     double least_variance_around(const std::array<int64_t, 3>& cube) const;
     void fill_promising();
 
     V3d origin_{0};
-    double width_ = 0; ///< of a cube of the first level
+    double width_ = 0; ///< edge of a cube of the first level
     double tolerance_, most_off_;
     Extremes extremes_;
     std::vector<Level> levels_;
-    std::vector<uint32_t> promising_; ///< by cube of the first level: a bit for each level of which balls around places
-                                      ///< in there may_hold()
+    /// For each cube of the first level: bit l is set if may_hold() is true for balls of level l centred in this cube.
+    std::vector<uint32_t> promising_;
 };
 
 } // namespace scree

@@ -7,10 +7,10 @@
 
 namespace scree {
 
-// The phase function of Henyey and Greenstein (1941), -1 < g < 1; cosine: between the ways before and after, 1 is
-// straight on.
+// The phase function of Henyey and Greenstein (1941), -1 < g < 1. cosine: between the directions before and after the
+// scattering; 1 is straight on.
 
-/// A cosine, by u in 0..1. Without cancellation for small g.
+/// Samples a cosine with u in 0..1; accurate for small g, as nothing cancels.
 inline double sample_henyey_greenstein(double g, double u)
 {
     const double x = 2 * u - 1, y = 1 + g * x;
@@ -39,19 +39,18 @@ public:
 private:
     CosineTable table_;
     double mean_cosine_ = 0;
-    std::array<double, CosineTable::bins> cumulated_{}; ///< to each bin's end
+    std::array<double, CosineTable::bins> cumulated_{}; ///< cumulative probability up to each bin's end
 };
 
-/// A phase function that depends on the angle alone: Henyey and Greenstein's, or a tabulated one, which must outlive
-/// this.
+/// A phase function that depends on the angle alone: Henyey-Greenstein, or a table, which must outlive this object.
 class PhaseFunction {
 public:
     PhaseFunction() = default; ///< isotropic
-    /// Of Henyey and Greenstein; -1 < g < 1.
+    /// Henyey-Greenstein; -1 < g < 1.
     explicit PhaseFunction(double g) : g_(g) {}
     explicit PhaseFunction(const PhaseTable* table) : g_(table->mean_cosine()), table_(table) {}
 
-    /// A cosine, by u in 0..1.
+    /// Samples a cosine with u in 0..1.
     double sample(double u) const { return table_ ? table_->sample(u) : sample_henyey_greenstein(g_, u); }
     /// Its density per solid angle.
     double pdf(double cosine) const { return table_ ? table_->pdf(cosine) : pdf_henyey_greenstein(g_, cosine); }
@@ -62,7 +61,7 @@ private:
     const PhaseTable* table_ = nullptr;
 };
 
-/// The direction at an angle of this cosine to d, which is unit; u: in 0..1, around d.
+/// The unit direction whose angle to d (unit) has this cosine; u in 0..1 is the azimuth around d.
 inline V3d turned(const V3d& d, double cosine, double u)
 {
     const double phi = 2 * pi * u, sine = safe_sqrt(1 - cosine * cosine);

@@ -22,11 +22,11 @@ Placement placement_of(const openvdb::GridBase& grid, const Imath::M44d& to_scen
     const auto map = grid.transform().baseMap();
     if (!map->isLinear())
         throw InputError(place, fmt::format("a {} transform of the grid of {}", map->type(), name),
-                         "a linear (affine) transform", "resample the grid, frusta are not read");
+                         "a linear (affine) transform", "resample the grid: frustum transforms are not supported");
     const auto from_vdb = [](const openvdb::Vec3d& v) { return V3d(v.x(), v.y(), v.z()); };
     Placement p;
     for (int k = 0; k < 3; ++k) {
-        // The Jacobian, and not a difference of places: far from 0 that would lose digits.
+        // The Jacobian: a difference of two points would lose digits far from 0.
         const V3d column = from_vdb(map->applyJacobian(openvdb::Vec3d(k == 0, k == 1, k == 2)));
         to_scene.multDirMatrix(column, p.columns[static_cast<size_t>(k)]);
     }
@@ -44,8 +44,8 @@ void place_field(PlacedField& placed, const Placement& p, const Coord& origin, c
     for (const V3d& row : inverse)
         if (!std::isfinite(row.x + row.y + row.z))
             throw InputError(place, fmt::format("a transform of the grid of {} that cannot be inverted", name),
-                             "voxels that have a volume");
-    const double half = placed.field.nearest ? 0.5 : 0; // a voxel is around its centre
+                             "voxels with a volume above 0");
+    const double half = placed.field.nearest ? 0.5 : 0; // a voxel extends half an edge around its centre
     const V3d from_origin = space.origin - p.constant;
     const V3d first(origin.x() - half, origin.y() - half, origin.z() - half);
     for (size_t k = 0; k < 3; ++k) {

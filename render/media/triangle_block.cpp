@@ -6,7 +6,7 @@ namespace scree {
 
 namespace {
 
-/// The point of a segment that is nearest to the origin.
+/// The point of the segment from a to a + edge that is nearest to the origin.
 V3d foot_on_edge(const V3d& a, const V3d& edge)
 {
     const double length = edge.dot(edge), t = length > 0x1p-900 ? std::clamp(-a.dot(edge) / length, 0.0, 1.0) : 0.0;
@@ -37,8 +37,8 @@ V3d TriangleBlock::nearest(size_t lane, const V3d& place) const
 
 double TriangleBlock::distance(size_t lane, const V3d& place) const
 {
-    // As in `squares`, with u = 2^-53 and M for S. Where n is hardly known every point of the triangle is within |n| /
-    // longest edge of one of its edges.
+    // The same error bounds as in `squares`, with u = 2^-53 and M in place of S. Where the normal n is inaccurate,
+    // every point of the triangle is within |n| / longest edge of one of its edges.
     const std::array<V3d, 3> t = triangle(lane);
     const V3d a = t[0] - place, b = t[1] - place, c = t[2] - place, u = t[1] - t[0], v = t[2] - t[1], w = t[0] - t[2],
               normal = w.cross(u);

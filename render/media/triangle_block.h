@@ -7,10 +7,9 @@
 
 namespace scree {
 
-/// Up to eight triangles whose distances from a place are found at once; empty lanes repeat another triangle.
+/// Up to eight triangles whose distances from a point are computed at once; unused lanes repeat another triangle.
 ///
-/// Corners are in units in which the places that are asked about are about 1 apart, below 2^100 and off by less than
-/// 2^-149.
+/// Corners are in units in which the query points are about 1 apart; they are below 2^100 and exact to 2^-149.
 struct TriangleBlock {
     static constexpr size_t lanes = 8;
     using Lanes = std::array<float, lanes>;
@@ -29,30 +28,34 @@ struct TriangleBlock {
         return t;
     }
 
-    /// Squares of distances in float: `low` is never above the truth, `about` may be on either side of it.
+    /// Squared distances in float: `low` is never above the exact value, `about` may be above or below it.
     struct Squares {
         Lanes low, about;
     };
     Squares squares(const V3d& place) const;
-    /// A lower bound of the distance from a place to one of the triangles, mostly some 1e-14 of the farthest corner's
-    /// distance below it.
+    /// A lower bound of the distance from a point to one of the triangles, mostly about 1e-14 of the farthest corner's
+    /// distance below the exact value.
     double distance(size_t lane, const V3d& place) const;
-    /// The point of a triangle that is nearest to a place, up to rounding.
+    /// The point of a triangle that is nearest to a given point, up to rounding.
     V3d nearest(size_t lane, const V3d& place) const;
 };
 
 inline TriangleBlock::Squares TriangleBlock::squares(const V3d& place) const
 {
-    // The nearest of a triangle's points is that of one of its edges, or the foot on its plane, where that is in the
-    // triangle.
+    // The nearest point of a triangle is the nearest point of one of its edges, or the foot of the perpendicular on its
+    // plane if the foot is inside the triangle.
     //
-    // Let u = 2^-24, q the place from a corner of the block, M the farthest corner's distance from the place and S^2 =
-    // q^2 + M^2. Corners from the place, a to c, are off by less than 8 u S, edges by u of each component. Edges: each
-    // a + t e that is computed is within 16 u S of a point of the triangle, and t off by no more than 16 u S / |e| from
-    // the best in 0..1; where |e|^2 underflows any t will do. With squares and sums below 64 u S; (d - 64 u S)^2 >= (1
-    // - 2^-13) d^2 - 2^-23 S^2. Plane: n = w x u is off by less than 8 u |u| |w| in length, so n.a by less than 16 u
-    // |a| |u| |w|, which `high` is lowered by twice, and what a is off by counts as with edges. No point of a triangle
-    // is nearer than its plane, so that is `low` wherever the foot may be inside.
+    // Let u = 2^-24, q the query point relative to a corner of the block, M the farthest corner's distance from the
+    // query point and S^2 = q^2 + M^2. The corners a, b, c relative to the query point have errors below 8 u S, the
+    // edges below u of each component.
+    //
+    // Edges: each computed a + t e is within 16 u S of a point of the triangle, and t is within 16 u S / |e| of the
+    // best t in 0..1; where |e|^2 underflows any t is good enough. With squares and sums the error is below 64 u S, and
+    // (d - 64 u S)^2 >= (1 - 2^-13) d^2 - 2^-23 S^2.
+    //
+    // Plane: the error of n = w x u is below 8 u |u| |w| in length, so that of n.a is below 16 u |a| |u| |w|; `lowered`
+    // is `high` minus twice this. The error of a counts as for the edges. No point of a triangle is nearer than its
+    // plane, so the plane's distance may be used for `low` wherever the foot may be inside.
     constexpr float tiny = 0x1p-100f, tolerance = 0x1p-17f;
     const V3d origin(double{corner[0][0][0]}, double{corner[0][1][0]}, double{corner[0][2][0]});
     const V3f q(place - origin), o{origin};
@@ -93,7 +96,7 @@ inline TriangleBlock::Squares TriangleBlock::squares(const V3d& place) const
 
         const float nx = wy * uz - wz * uy, ny = wz * ux - wx * uz, nz = wx * uy - wy * ux;
         const float nn = nx * nx + ny * ny + nz * nz;
-        // Of one sign where the foot is inside.
+        // All are 0 or more where the foot is inside.
         const float iu = nx * (ay * bz - az * by) + ny * (az * bx - ax * bz) + nz * (ax * by - ay * bx);
         const float iv = nx * (by * cz - bz * cy) + ny * (bz * cx - bx * cz) + nz * (bx * cy - by * cx);
         const float iw = nx * (cy * az - cz * ay) + ny * (cz * ax - cx * az) + nz * (cx * ay - cy * ax);
@@ -108,7 +111,7 @@ inline TriangleBlock::Squares TriangleBlock::squares(const V3d& place) const
                     under = inside >= -tolerance * (u1 * w1) * far ? (below < edges ? below : edges) : edges;
         const float low = under * (1 - 0x1p-12f) - 0x1p-22f * far - 0x1p-100f;
         squares.about[k] = about;
-        // Where the normal is hardly known the plane tells nothing; NaN tells nothing either.
+        // 0 where the normal is inaccurate, because then the plane gives no bound; also for NaN.
         squares.low[k] = nn >= 0x1p-18f * uu * ww && nn > tiny && low > 0 ? low : 0;
     }
     return squares;

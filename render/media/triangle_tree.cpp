@@ -8,8 +8,8 @@ namespace scree {
 
 namespace {
 
-/// The least of squares, of which none is negative: they are in the order of their bits, the last three of which are
-/// given to the lane. Lowered by up to 2^-20.
+/// The bits of the least square; their last three are replaced by its lane, which lowers the square by up to 2^-20. No
+/// square is negative, so they are ordered like their bits.
 inline uint32_t least_with_lane(const std::array<float, 8>& squares)
 {
     std::array<uint32_t, 8> key = std::bit_cast<std::array<uint32_t, 8>>(squares);
@@ -18,26 +18,26 @@ inline uint32_t least_with_lane(const std::array<float, 8>& squares)
     return std::min(std::min(key[0], key[2]), std::min(key[1], key[3]));
 }
 
-/// What is waiting: the square of a distance, and a child's number.
+/// An entry of the search stack: a squared distance and a child's number.
 struct Entry {
     float square;
     uint32_t child;
 };
 
-/// What may be lost, as a share of the distance, after so many blocks: near the middle of a ball all of its surface is
-/// as far, and looking for the very nearest would visit it all.
+/// Allowed loss of the bound, as a part of the distance, after `patience` blocks. Near the middle of a ball all of its
+/// surface is about equally far, and a search for the exact minimum would visit all of it.
 constexpr double large_loss = 0x1p-6;
-constexpr double float_loss = 0x1p-10; ///< of the square, by float in place of double
+constexpr double float_loss = 0x1p-10; ///< part of the square that may be lost by using float instead of double
 constexpr int patience = 64;
 constexpr size_t most_entry_nodes = size_t{1} << 21;
-constexpr float most_square = 0x1p100f; ///< that is told of: greater ones might overflow
+constexpr float most_square = 0x1p100f; ///< larger squares are clamped to this, as they might overflow
 
 } // namespace
 
 inline std::array<float, TriangleTree::width> TriangleTree::squares(const Node& node, const SplitPlace& place)
 {
-    // Let u = 2^-24: q from a box's middle is off by less than 3 u |q| and what the place's parts are off, and what is
-    // computed along an axis by less than 8 u of the sum of |q|'s components, which each gap is lowered by.
+    // Let u = 2^-24 and q the point relative to a box's middle. The error of q is below 3 u |q| plus place.rounding.
+    // The error along an axis is below 8 u times the sum of |q|'s components; each gap is lowered by the sum of both.
     std::array<float, width> square;
     for (size_t k = 0; k < width; ++k) {
         const float x = (place.high.x - node.middle[0][k]) + place.low.x,
@@ -61,7 +61,7 @@ inline double TriangleTree::nearer(const TriangleBlock& block, const V3d& place,
     const TriangleBlock::Squares squares = block.squares(place);
     const uint32_t least = least_with_lane(squares.low);
     const double low = double{std::bit_cast<float>(least & ~uint32_t{7})};
-    // What is good enough in float.
+    // Cases in which float is accurate enough.
     if (low >= best * best) return best;
     if (low > 0 && low >= double{squares.about[least & 7]} * (1 - float_loss)) return std::sqrt(low) * (1 - 0x1p-50);
     best = std::min(best, block.distance(least & 7, place));
@@ -87,7 +87,7 @@ TriangleTree::Entries TriangleTree::entries(const V3d& middle, double radius) co
     const SplitPlace split(middle);
     size_t count = 1;
     for (size_t at = 0; at < count;) {
-        // Goes down where only nodes, and not too many, can hold what matters; the nearest comes first.
+        // Replaces a node by its children if all relevant children are nodes and few enough; the nearest comes first.
         const Node& node = nodes_[found[at]];
         const std::array<float, width> square = squares(node, split);
         std::array<Entry, width> near;
@@ -95,7 +95,7 @@ TriangleTree::Entries TriangleTree::entries(const V3d& middle, double radius) co
         bool down = true;
         for (size_t k = 0; k < width; ++k) {
             if (node.child[k] == 0 || !(square[k] <= reach)) continue;
-            // In order; equal ones by their places in the node, which do not depend on which thread made what.
+            // Sorted by distance; ties by position in the node, which does not depend on the thread that built it.
             size_t to = children++;
             for (; to > 0 && near[to - 1].square > square[k]; --to) near[to] = near[to - 1];
             near[to] = {square[k], node.child[k]};
@@ -121,15 +121,15 @@ double TriangleTree::distance(const V3d& place, uint32_t& block, const Entries& 
     double best = std::numeric_limits<double>::infinity();
     if (blocks_.empty()) return best;
     if (block != none) best = nearer(blocks_[block], place, best);
-    // Boxes' squares are off by less than 2^-20 of them (axes are off by 2^-25 in each component), and by what
-    // underflows.
+    // The relative error of the boxes' squares is below 2^-20 (axes have an error of 2^-25 in each component), plus
+    // underflow.
     const auto limit_of = [&lost](double d) {
         return static_cast<float>(d * d * ((1 - lost) * (1 - lost) * (1 + 0x1p-19)) + 0x1p-118);
     };
     float limit = limit_of(best);
     Entry stack[deepest * (width - 1) + 2 * width + most_entries];
     size_t waiting = 0;
-    // The root is of no use as another entry.
+    // A 0 after the first entry means none: the root would be useless there.
     for (size_t k = most_entries; k-- > 1;)
         if (from[k]) stack[waiting++] = {0, from[k]};
     int visited = 0;
@@ -150,7 +150,7 @@ double TriangleTree::distance(const V3d& place, uint32_t& block, const Entries& 
             const Node& node = nodes_[next];
             const std::array<float, width> square = squares(node, split);
             const uint32_t nearest = least_with_lane(square) & 7;
-            // Without branches, which would often go the wrong way.
+            // Without branches, which would often be mispredicted.
             for (uint32_t k = 0; k < width; ++k) {
                 stack[waiting] = {square[k], node.child[k]};
                 waiting += static_cast<size_t>(square[k] < limit) & static_cast<size_t>(k != nearest) &

@@ -94,18 +94,18 @@ private:
             const V3d scaled = p * scale;
             if (!(std::max({std::abs(scaled.x), std::abs(scaled.y), std::abs(scaled.z)}) < 0x1p100))
                 throw InputError("clearance field", fmt::format("vertex {} that is 2^100 boxes away", vertex),
-                                 "places near the box");
+                                 "vertices near the box");
             corners_[to][k] = V3f(scaled);
             bounds_[to].extend(corners_[to][k]);
         }
     }
 
-    /// The children of node `at` are made of the range, which is not empty.
+    /// Makes the children of node `at` from a range that is not empty.
     void fill(size_t at, const Range& range, size_t depth)
     {
         std::vector<Range> parts{range};
         while (parts.size() < TriangleTree::width) {
-            // The largest, by what it costs to visit it.
+            // The part with the largest surface, which is the most expensive to visit.
             size_t most = parts.size();
             double cost = -1;
             for (size_t k = 0; k < parts.size(); ++k) {
@@ -140,7 +140,8 @@ private:
             for (size_t k = 0; k < parts.size(); ++k) descend(k);
     }
 
-    /// Along the mean normal and what is farthest in its plane; along the coordinates where that is no smaller.
+    /// Orients the box along the mean normal and the farthest corner in the plane across it; along the coordinate axes
+    /// if the oriented box is not smaller.
     void set_box(TriangleTree::Node& node, size_t k, const Range& range) const
     {
         V3d normal(0);
@@ -160,11 +161,11 @@ private:
                     if (flat.length2() > along.length2()) along = flat;
                 }
             if (along.length() > 0) {
-                // A second time: the first may have left much of the normal.
+                // Orthogonalises a second time: the first may leave a large part along the normal.
                 along = (along - normal * normal.dot(along)).normalized();
                 const V3d across = normal.cross(along).normalized();
-                // Small boxes, which are many, are worth a search: one along the diagonal of a patch is twice as large
-                // as it need be.
+                // Small boxes are many and so worth a search over angles: a box along the diagonal of a patch is twice
+                // as large as needed.
                 const int angles = range.count() <= worth_turning ? 6 : 1;
                 for (int angle = 0; angle < angles; ++angle) {
                     const double c = std::cos(pi / 2 * angle / angles), s = std::sin(pi / 2 * angle / angles);
@@ -195,7 +196,7 @@ private:
         }
     }
 
-    /// The range's corners along axes.
+    /// The extent of the range's corners along axes.
     void measure(const std::array<V3f, 3>& axes, const Range& range, V3d& lo, V3d& hi) const
     {
         const std::array<V3d, 3> wide{V3d(axes[0]), V3d(axes[1]), V3d(axes[2])};
@@ -220,8 +221,8 @@ private:
         return static_cast<uint32_t>(blocks_.push_back(block) - blocks_.begin());
     }
 
-    /// Surface area heuristic in bins along the axis in which the middles spread most; in halves where that does not
-    /// part them, or too deep.
+    /// Splits by the binned surface area heuristic along the axis in which the middles spread most. Splits into halves
+    /// if that separates nothing, or below depth `halving_depth`.
     std::pair<Range, Range> split(const Range& range, size_t depth)
     {
         Bounds middles;
@@ -246,7 +247,7 @@ private:
             const auto cost = [](const Bounds& b, size_t n) {
                 return b.area() * static_cast<double>((n + TriangleBlock::lanes - 1) / TriangleBlock::lanes);
             };
-            std::array<double, bins> above{}; // of the bins from here on
+            std::array<double, bins> above{}; // cost of the bins from here on
             Bounds sum;
             size_t n = 0;
             for (size_t b = bins; b-- > 1;) {

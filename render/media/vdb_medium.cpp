@@ -10,7 +10,7 @@ namespace scree {
 
 namespace {
 
-/// Runs `work` on the opened file and makes what OpenVDB throws an error of ours.
+/// Runs `work` on the opened file; turns OpenVDB's exceptions into InputError.
 template <class Work>
 auto with_file(const std::filesystem::path& path, const Work& work)
 {
@@ -33,9 +33,10 @@ void require(openvdb::io::File& file, const std::string& name, const std::string
         described.push_back(fmt::format("'{}' ({})", it.gridName(), file.readGridMetadata(it.gridName())->valueType()));
     }
     throw InputError(file.filename(),
-                     names.empty() ? "no grid at all" : fmt::format("no grid '{}' but {}", name, join_words(described)),
-                     fmt::format("the grid '{}' of {}", name, key),
-                     names.empty() ? "" : fmt::format("\"{}\" names the grid{}", key, did_you_mean(name, names)));
+                     names.empty() ? "no grid at all"
+                                   : fmt::format("no grid '{}', but {}", name, join_words(described)),
+                     fmt::format("the grid '{}' for \"{}\"", name, key),
+                     names.empty() ? "" : fmt::format("set \"{}\" to a grid's name{}", key, did_you_mean(name, names)));
 }
 
 openvdb::GridBase::Ptr read(openvdb::io::File& file, const std::string& name, const std::string& key)
@@ -77,7 +78,7 @@ Imath::Box3d vdb_medium_bounds(const std::filesystem::path& file, const VdbMediu
         Imath::Box3d bounds;
         if (voxels.empty()) return bounds;
         for (int corner = 0; corner < 8; ++corner) {
-            // Interpolation reaches one voxel beyond the last.
+            // Interpolation reaches one voxel beyond the active ones.
             openvdb::Vec3d voxel;
             for (int k = 0; k < 3; ++k) voxel[k] = corner >> k & 1 ? voxels.max()[k] + 1 : voxels.min()[k] - 1;
             const openvdb::Vec3d p = grid->transform().indexToWorld(voxel);

@@ -14,25 +14,27 @@ namespace scree {
 
 /// Which grids of an OpenVDB file make a medium.
 struct VdbMediumOptions {
-    std::string density = "density"; ///< name of its grid of floats, doubles or vectors of three
-    std::string albedo; ///< the same types, in 0..1; empty: GridMediumOptions::albedo everywhere
-    std::string g; ///< floats or doubles, |g| < 1; empty: GridMediumOptions::g everywhere
+    std::string density = "density"; ///< name of the density grid: floats, doubles or vectors of three
+    /// name of the albedo grid: the same types, in 0..1; empty: GridMediumOptions::albedo everywhere
+    std::string albedo;
+    std::string g; ///< name of the grid of g: floats or doubles, |g| < 1; empty: GridMediumOptions::g everywhere
     GridMediumOptions medium;
-    /// Places in the scene = places in the file * to_scene, as row vectors. Sigma_t is per unit of the scene.
+    /// Point in the scene = point in the file * to_scene, as row vectors. sigma_t is per unit of the scene.
     Imath::M44d to_scene;
 };
 
-/// Reads a medium from an OpenVDB file: clouds, smoke, what a simulation wrote.
+/// Reads a medium from an OpenVDB file: clouds, smoke or other output of a simulation.
 ///
-/// Throws InputError naming the file and, where a name is not found, its grids; also for other types of grids, level
-/// sets, transforms that are not linear, densities that are negative or not finite, albedos outside of 0..1 and |g|
-/// >= 1. Cancelled.
+/// Throws InputError that names the file; if a grid is missing, the error lists the grids of the file. Also for other
+/// types of grids, level sets, transforms that are not linear, densities that are negative or not finite, albedos
+/// outside 0..1 and |g| >= 1. Throws Cancelled.
 GridMedium read_vdb_medium(const std::filesystem::path& file, const VdbMediumOptions& options, const RenderSpace& space,
                            const Progress& progress);
 
-/// A box in the scene around everything that may not be empty: what a scene is laid out by before its media are made.
+/// A box in scene coordinates around everything that may be non-empty; used to lay out a scene before its media are
+/// made.
 ///
-/// From the file's metadata where it has them, else the grid is read. Throws InputError as read_vdb_medium().
+/// Taken from the file's metadata if present, else the grid is read. Throws InputError like read_vdb_medium().
 Imath::Box3d vdb_medium_bounds(const std::filesystem::path& file, const VdbMediumOptions& options);
 
 } // namespace scree

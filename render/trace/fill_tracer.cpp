@@ -7,7 +7,7 @@
 
 namespace scree {
 
-/// What a ray carries through Embree to the filter while it is in a cell.
+/// The data that a ray carries through Embree to the filter while it is in a cell.
 struct FillTracer::Visit {
     RTCIntersectContext context; // first: Embree hands it back
     const FillTracer* tracer;
@@ -17,12 +17,12 @@ struct FillTracer::Visit {
     uint64_t number = 0;
     uint32_t variant = 0;
     double begin = 0,
-           until = 0; // the part of the ray that is visited, tile units; Embree's is a little longer at both ends
-    double start = 0; // of Embree's ray, tile units along the ray
-    double end = 0; // of Embree's ray, from its start
-    bool starts_here = false; // the ray starts in this cell, where it may be within a mesh grain's sphere
+           until = 0; // The visited part of the ray, tile units; Embree's ray is slightly longer at both ends.
+    double start = 0; // start of Embree's ray, tile units along the ray
+    double end = 0; // end of Embree's ray, tile units from its start
+    bool starts_here = false; // the ray starts in this cell and may start inside a mesh grain's sphere
 
-    /// Where Embree's ray may end, now that the query has what it has.
+    /// Where Embree's ray may end, given the nearest hit so far.
     float embree_end() const
     {
         const double best = query->best * tracer->rate_ - start + tracer->margin_;
@@ -53,8 +53,8 @@ void fill_filter(const RTCFilterFunctionNArguments* args)
     const FillTracer& tracer = *visit.tracer;
     TracerQuery& query = *visit.query;
     args->valid[0] = 0;
-    // A sphere that the ray is yet to enter is proposed by its near face; by the far one alone when the ray starts in
-    // it.
+    // Embree proposes a sphere by its near face if the ray still has to enter it, and by its far face alone if the ray
+    // starts inside it.
     const bool far_face = hit->Ng_x * visit.d.x + hit->Ng_y * visit.d.y + hit->Ng_z * visit.d.z > 0;
     if (far_face && !visit.starts_here) return;
 
@@ -67,7 +67,7 @@ void fill_filter(const RTCFilterFunctionNArguments* args)
         number = tracer.fill_.number(owner);
     }
     const uint64_t id = tracer.fill_.id(number, entry.row);
-    // A sphere of a neighbour has the same place in every variant.
+    // A sphere of a neighbouring cell has the same position in every variant, so this cell's variant may be used.
     const ProceduralFill::Sphere placed = tracer.fill_.sphere(owner, visit.variant, entry.row);
     const GrainSphere sphere = tracer.world_.fill->to_render(placed);
     double t = 0;
@@ -80,10 +80,10 @@ void fill_filter(const RTCFilterFunctionNArguments* args)
     if (tracer.world_.types[place.type].exemplar && !query.is_proxy(id)) {
         if (!query.offer_mesh(place, sphere)) return;
     } else {
-        // A convex grain is not met again by the ray that leaves it.
+        // A ray that leaves a convex grain cannot hit it again.
         if (query.from.kind == HitKind::grain && query.from.index == id) return;
         if (!enters) return;
-        // What is entered in another visit weakens light there.
+        // A sphere that is entered in another visit attenuates in that visit.
         if (query.attenuates && !(t * tracer.rate_ >= visit.begin && t * tracer.rate_ < visit.until)) return;
         if (!query.offer_sphere(place, sphere, t)) return;
     }
@@ -98,7 +98,7 @@ FillTracer::FillTracer(std::shared_ptr<const EmbreeDevice> device, const World& 
     rate_ = world.space.world_length(1) / fill_.scale();
     const double extent = std::max({tile.size.x, tile.size.y, tile.size.z});
     const auto [least, largest] = std::minmax_element(tile.radius.begin(), tile.radius.end());
-    // Spheres lie off the lattice by the step of the fill's places and by rounding to float in the scene.
+    // Spheres deviate from the lattice by the step of the fill's positions and by rounding to float in the scene.
     margin_ = 0x1p-19 * extent + 0x1p-22 * rate_ + fill_.voxel() * 0x1p-22 / fill_.scale();
     float_margin_ = FloatMargin(margin_ * 0x1p19, *least, *largest);
     step_back_ = float_margin_.step_back;
@@ -125,8 +125,8 @@ void FillTracer::make_variant(uint32_t number)
         const V3d& p = tile.variants[number][row];
         const double r = tile.radius[row];
         int first[3] = {0, 0, 0}, last[3] = {0, 0, 0};
-        // Only what all variants share stands in the neighbouring cells for certain; the others do not reach beyond
-        // their own.
+        // Only spheres that all variants share certainly exist in the neighbouring cells. The others do not reach
+        // beyond their own cell.
         const bool everywhere = row < tile.shared || tile.variants.size() == 1;
         for (int axis = 0; axis < 3 && everywhere; ++axis) {
             if (p[axis] - r <= margin_) last[axis] = 1;
@@ -178,10 +178,10 @@ void FillTracer::make_domain()
     device_->check("building a domain");
 }
 
-/// Where a ray is inside the domain, as far as it has been looked at: from begin to end (tile units along the ray).
+/// A part of a ray that is inside the domain, as far as it is known: from begin to end (tile units along the ray).
 struct FillTracer::Inside {
     double begin = 0, end = 0;
-    bool goes_on = false; // beyond the end, until the surface is crossed
+    bool goes_on = false; // the part goes on beyond `end`, up to the next crossing of the surface
 };
 
 bool FillTracer::next_crossing(const TracerQuery& query, double s, double end, Crossing& crossing) const
@@ -195,8 +195,8 @@ bool FillTracer::next_crossing(const TracerQuery& query, double s, double end, C
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     const V3d normal(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z);
     const double cosine = normal.dot(query.d) / normal.length();
-    // Rounding moves start and surface across each other, which moves the crossing along the ray by as much over the
-    // cosine. Where the ray all but glides along the surface it may be on either side.
+    // Rounding shifts the start and the surface against each other, which shifts the crossing along the ray by that
+    // distance over the cosine. A ray almost parallel to the surface may be on either side of it.
     constexpr double least = 0x1p-10;
     const double margin = 0x1p-19 * (1 + start.length()) / std::max(std::abs(cosine), least);
     const double at = t + ray.ray.tfar;
@@ -249,7 +249,7 @@ void FillTracer::walk(TracerQuery& query, bool any) const
 {
     double s = query.beyond * rate_;
     Inside inside;
-    // On a grain of the fill the ray starts inside, as it does where one was missed.
+    // A ray that starts on a grain of the fill, or beyond a missed one, starts inside the domain.
     inside.goes_on = query.from.kind == HitKind::grain || query.beyond > 0;
     if (!inside.goes_on && !reaches_domain(query, s)) return;
 
@@ -283,7 +283,7 @@ void FillTracer::walk(TracerQuery& query, bool any) const
             if (any && query.place.kind != HitKind::none) return;
             inside = {leave, leave, true};
         } else {
-            // Part by part of what is inside.
+            // Visits the parts of the ray inside the domain one by one.
             for (double from = s; from < leave && from < query.best * rate_; from = inside.end) {
                 if (from >= inside.end && !find_inside(query, from, inside)) return;
                 if (inside.begin >= leave) break;

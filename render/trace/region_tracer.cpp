@@ -17,11 +17,11 @@ std::array<V3d, 3> corners_of(const MediumRegion& region, uint32_t triangle)
     return {V3d(region.positions[t[0]]), V3d(region.positions[t[1]]), V3d(region.positions[t[2]])};
 }
 
-/// Where o + t d meets a triangle; false where it passes beside it or within its plane.
+/// Where o + t d hits a triangle; false if the ray passes beside it or lies in its plane.
 ///
-/// On which side of an edge a ray passes is the sign of a volume, which for two triangles that share the edge is the
-/// same number: no ray goes between them (Platis and Theoharis 2003, in double). One through the edge itself passes
-/// where one does that starts next to nothing aside (Edelsbrunner and Mücke 1990).
+/// The side of an edge on which a ray passes is the sign of a volume. Two triangles that share the edge compute the
+/// same number, so no ray passes between them (Platis and Theoharis 2003, in double). A ray exactly through the edge is
+/// treated as if its start were moved aside infinitesimally (Edelsbrunner and Mücke 1990).
 bool meets(const std::array<V3d, 3>& corners, const V3d& o, const V3d& d, double& t, bool& enters)
 {
     const V3d a = corners[0] - o, b = corners[1] - o, c = corners[2] - o;
@@ -40,21 +40,22 @@ bool meets(const std::array<V3d, 3>& corners, const V3d& o, const V3d& d, double
     return true;
 }
 
-/// What a ray carries through Embree, and the nearest crossing so far.
+/// The data that a ray carries through Embree, and the nearest crossing so far.
 struct CrossingQuery {
     RTCIntersectContext context; // first: Embree hands it back
     const World& world;
     V3d o, d;
-    double ahead; // the ray is met from o + ahead d on, as near to the regions as it comes: a double must tell what is
-                  // left of it there
+    // Triangles are tested from o + ahead d on, which is near the regions, so that double is precise there.
+    double ahead;
     double tmin, best, advanced; // Embree's ray starts at o + advanced d
-    double slack; // what rounding to float may move a crossing by
+    double slack; // the largest shift of a crossing by rounding to float
     const Crossing* last;
     Crossing crossing{};
     bool found = false;
-    bool doubtful = false; // a triangle that Embree met is not met: it may be another one that shares an edge with it
+    // Embree hit a triangle that the exact ray misses; the ray may hit a neighbour of that triangle instead.
+    bool doubtful = false;
 
-    /// Whether the ray meets a triangle nearer than all so far; Embree's ray ends there then.
+    /// Whether the ray hits this triangle nearer than all so far; if so, Embree's ray is shortened to the hit.
     bool offer(uint32_t region, uint32_t triangle, RTCRay& embree)
     {
         Crossing met{0, region, triangle, false};
@@ -63,7 +64,7 @@ struct CrossingQuery {
             return false;
         }
         met.t += ahead;
-        // Where surfaces coincide they are gone through in order of their numbers.
+        // Coincident surfaces are crossed in the order of their numbers.
         const auto number = [](const Crossing& of) { return std::pair{of.region, of.triangle}; };
         if (last && number(met) == number(*last)) return false;
         const bool due = met.t > tmin || (last && met.t == tmin && number(met) > number(*last));
@@ -90,8 +91,8 @@ void meet_box(const RTCIntersectFunctionNArguments* args)
     query.offer(args->geomID, args->primID, reinterpret_cast<RTCRayHit*>(args->rayhit)->ray);
 }
 
-/// The surface of a region as Embree is told of it: no ray that meets a triangle passes by its box, whatever rounding
-/// to float does to either.
+/// The surface of a region as boxes for Embree, widened so that every ray that hits a triangle also hits its box, in
+/// spite of rounding to float.
 struct WidenedSurface {
     const MediumRegion* region;
     double slack;
@@ -111,12 +112,13 @@ struct WidenedSurface {
 struct RegionTracer::Impl {
     std::shared_ptr<const EmbreeDevice> device;
     const World& world;
-    RTCScene triangles = nullptr; // quick, and tight for rays as they are in float
-    RTCScene boxes = nullptr; // around triangles: whatever a ray meets in double is in one that it meets in float
+    RTCScene triangles = nullptr; // fast; exact only for rays rounded to float
+    // boxes of triangles: a triangle that a ray hits in double is in a box that it hits in float
+    RTCScene boxes = nullptr;
     Imath::Box3d box; // of all regions
     V3d middle{0};
     double radius = 0; // around the middle
-    double slack = 0; // what rounding of a ray to float may move it by
+    double slack = 0; // the largest shift of a ray by rounding to float
 
     Impl(std::shared_ptr<const EmbreeDevice> device_, const World& world_);
     ~Impl()
@@ -146,9 +148,9 @@ RegionTracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const Worl
         *scene = rtcNewScene(device->get());
         rtcSetSceneFlags(*scene, RTC_SCENE_FLAG_ROBUST);
     }
-    rtcSetSceneBuildQuality(boxes, RTC_BUILD_QUALITY_LOW); // hardly a ray asks it
+    rtcSetSceneBuildQuality(boxes, RTC_BUILD_QUALITY_LOW); // hardly any ray uses this scene
     std::vector<WidenedSurface> surfaces;
-    surfaces.reserve(world.regions.size()); // Embree keeps where they are
+    surfaces.reserve(world.regions.size()); // Embree keeps pointers to the elements
     for (uint32_t i = 0; i < world.regions.size(); ++i) {
         const MediumRegion& region = world.regions[i];
         RTCGeometry quick = rtcNewGeometry(device->get(), RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -176,7 +178,7 @@ RegionTracer::Impl::Impl(std::shared_ptr<const EmbreeDevice> device_, const Worl
     device->check("building the surfaces of media");
 }
 
-/// Embree's ray may start up to slack early and end as much late, which is what rounding to float may move it by.
+/// Embree's ray starts up to `slack` early and ends `slack` late, because rounding to float may shift it by that much.
 void RegionTracer::Impl::find(CrossingQuery& query, RTCScene scene) const
 {
     RTCRayHit ray = make_ray(query.o + query.advanced * query.d, query.d, query.best - query.advanced + query.slack);
@@ -202,12 +204,12 @@ V3d RegionTracer::normal(const Crossing& crossing) const
 bool RegionTracer::find(const V3d& o, const V3d& d, double tmin, double tmax, const Crossing* last, bool& surely,
                         Crossing& crossing) const
 {
-    // A ray starts no farther away than the regions' size.
+    // Embree's ray starts near the regions: within about their own size.
     const V3d to = impl_->middle - o;
     const double reach = impl_->radius * (1 + 0x1p-10), along = to.dot(d);
     if (along + reach < tmin || along - reach > tmax || (to - along * d).length2() > reach * reach) return false;
     const double start = std::max(tmin, along - reach), slack = 4 * impl_->slack;
-    // One nearly along a face needs a long way back to be on its near side in float too.
+    // A ray almost parallel to a face must start far back to be on the face's near side in float too.
     CrossingQuery query{{},   impl_->world,          o,     d,   std::max(0.0, along - reach), tmin,
                         tmax, start - 0x1p8 * slack, slack, last};
     rtcInitIntersectContext(&query.context);
@@ -228,9 +230,10 @@ bool RegionTracer::find(const V3d& o, const V3d& d, double tmin, double tmax, co
 bool RegionTracer::next(const V3d& o, const V3d& d, double tmin, double tmax, const Crossing* last, RegionSet& regions,
                         Crossing& crossing) const
 {
-    // What is ahead tells where the ray is: of one that is in a region, all the way.
+    // The crossings ahead tell in which regions the ray is. If it is in a region, there must be a crossing ahead, so
+    // the search goes on beyond tmax.
     const double end = regions != 0 ? std::numeric_limits<double>::infinity() : tmax;
-    Crossing ahead; // last may be what the caller keeps its crossing in
+    Crossing ahead; // a separate variable, as `last` may point to `crossing`
     bool surely = false, crosses = find(o, d, tmin, end, last, surely, ahead);
     const auto told = [&] { return before(regions, crosses ? &ahead : nullptr); };
     if (crosses || std::isinf(end)) {
@@ -245,10 +248,10 @@ bool RegionTracer::next(const V3d& o, const V3d& d, double tmin, double tmax, co
 RegionSet RegionTracer::inside(const V3d& o, const V3d& d) const
 {
     RegionSet in = 0, met = 0;
-    if (!impl_->box.intersects(o)) return in; // as most cameras are
+    if (!impl_->box.intersects(o)) return in; // the case of most cameras
     Crossing crossing;
     const Crossing* last = nullptr;
-    bool surely = true; // one that is missed may be the only one
+    bool surely = true; // a missed crossing may be the only one
     for (double t = 0; find(o, d, t, std::numeric_limits<double>::infinity(), last, surely, crossing);
          t = crossing.t, last = &crossing) {
         const RegionSet bit = RegionSet{1} << crossing.region;

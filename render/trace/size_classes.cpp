@@ -10,9 +10,9 @@ namespace scree {
 
 namespace {
 
-constexpr int octaves = 6; // of radii in a class
+constexpr int octaves = 6; // factors of two between the radii of a class
 
-/// Bounds, margin and, in Embree, the grains of a class: spheres first, then meshes.
+/// Sets the bounds, the margin and the Embree scene of a class: spheres first, then meshes.
 void build_class(const EmbreeDevice& device, const GrainStore& grains, size_t spheres_in_it, SizeClass& size)
 {
     V3d lo(std::numeric_limits<double>::infinity()), hi = -lo;
@@ -75,7 +75,7 @@ SizeClasses::SizeClasses(const EmbreeDevice& device, const GrainStore& grains)
     for (uint32_t i = 0; i < grains.size(); ++i) {
         const int octave = std::ilogb(grains.radius(i)) + 1024, number = octave / octaves;
         by_size[number].push_back(i);
-        spheres[number] += i < grains.analytic_count; // they come first
+        spheres[number] += i < grains.analytic_count; // spheres come first in the store
     }
     classes_.reserve(by_size.size());
     for (auto& [number, members] : by_size) {
@@ -98,7 +98,7 @@ void SizeClasses::find(TracerQuery& query, bool any) const
         if (is_far && !enters_sphere({size.centre, size.reach}, query.o, query.d, entry)) continue;
         query.advanced = std::max(query.beyond, entry) - size.margin.step_back;
         if (is_far && query.best <= query.advanced) continue;
-        query.reach = is_far ? 0 : size.mesh_reach; // no sphere is around a start this far out
+        query.reach = is_far ? 0 : size.mesh_reach; // a start this far out is in no sphere
         query.sized = &size;
         RTCRayHit ray = make_ray(query.o + query.advanced * query.d - size.centre, query.d, query.embree_end());
         if (any) {

@@ -23,7 +23,7 @@ struct LocalRay {
     Imath::M33d to_world;
     V3d centre, o, d;
     double radius;
-    double rounding; // of o: a few of 2^-53 of what it was computed from
+    double rounding; // error of o: a few 2^-53 of the numbers from which it was computed
 
     LocalRay(const World& world, const Place& grain, const GrainSphere& sphere, const V3d& world_o, const V3d& world_d)
         : to_world(world.rotation(grain.index)), centre(sphere.centre), radius(sphere.radius)
@@ -42,7 +42,8 @@ std::array<V3d, 3> corners(const Surface& surface, uint32_t triangle)
     return {V3d(surface.positions[t[0]]), V3d(surface.positions[t[1]]), V3d(surface.positions[t[2]])};
 }
 
-/// Where Embree's ray starts: near o, but off the surface triangle it lies on by what rounding to float may move it.
+/// Where Embree's ray starts: o, moved away from the surface triangle on which it lies by the largest rounding error of
+/// float.
 V3d float_start(const World& world, const V3d& o, const V3d& d, const Place& from)
 {
     if (from.kind != HitKind::surface) return o;
@@ -51,7 +52,7 @@ V3d float_start(const World& world, const V3d& o, const V3d& d, const Place& fro
     return o + std::copysign(bound, n.dot(d)) * n;
 }
 
-/// Fills in point and normal of what a query found.
+/// The hit that a query found, with point and normal.
 Hit make_hit(const TracerQuery& query)
 {
     const World& world = query.tracer->world;
@@ -118,7 +119,7 @@ bool TracerQuery::offer_mesh(const Place& grain, const GrainSphere& sphere)
 {
     const World& world = tracer->world;
     LocalRay local(world, grain, sphere, o, d);
-    // Start at the unit sphere, where a float is precise.
+    // Starts at the unit sphere, where a float is precise.
     double entry = 0;
     if (local.o.length2() > 1 && !enters_sphere({V3d(0), 1}, local.o, local.d, entry)) return false;
     const double end = std::min(best / local.radius - entry, 2.5); // no chord of the unit sphere is longer than 2
@@ -139,7 +140,7 @@ bool TracerQuery::offer_mesh(const Place& grain, const GrainSphere& sphere)
 bool TracerQuery::is_mesh_due(const GrainSphere& sphere, const RTCHit& hit) const
 {
     if (hit.Ng_x * d.x + hit.Ng_y * d.y + hit.Ng_z * d.z < 0) return true;
-    // The far face is proposed alone when the ray starts inside, or so near outside that float does not tell.
+    // Embree proposes the far face alone if the ray starts inside, or so close outside that float cannot tell.
     const double distance = (o - sphere.centre).length();
     return distance - sphere.radius <= 0x1p-20 * (distance + o.length());
 }
@@ -160,10 +161,10 @@ void tracer_filter(const RTCFilterFunctionNArguments* args)
     const uint32_t grain = is_grain ? query.grain_of(*hit) : 0;
     if (hit->geomID == Tracer::Impl::analytic_id || (hit->geomID == Tracer::Impl::mesh_id && query.is_proxy(grain))) {
         const bool far_face = hit->Ng_x * query.d.x + hit->Ng_y * query.d.y + hit->Ng_z * query.d.z > 0;
-        // The far face follows the near one: light is not to be weakened twice.
+        // The far face follows the near one; one sphere must not attenuate light twice.
         const FloatMargin& margin = query.sized ? query.sized->margin : world.grains.margin;
         if (far_face && (margin.complete || query.attenuates)) return;
-        // A convex grain is not met again by the ray that leaves it.
+        // A ray that leaves a convex grain cannot hit it again.
         if (query.from.kind == HitKind::grain && query.from.index == grain) return;
         const GrainStore& grains = world.grains;
         const GrainSphere sphere{grains.centre(grain), grains.radius(grain)};
@@ -174,8 +175,8 @@ void tracer_filter(const RTCFilterFunctionNArguments* args)
         return;
     } else if (hit->geomID == Tracer::Impl::mesh_id) {
         const GrainSphere sphere = world.sphere(grain);
-        // The exemplar lies at or beyond the sphere's near face: the ray's end moves out from there, but never beyond
-        // the nearest hit known.
+        // The exemplar lies at or beyond the sphere's near face, so Embree's tfar must be moved out from there, but
+        // never beyond the nearest known hit.
         if (!query.is_mesh_due(sphere, *hit)) return;
         if (!query.offer_mesh({HitKind::grain, grain, no_triangle, world.grains.type_codes[grain]}, sphere)) return;
         ray->tfar = query.embree_end();
@@ -189,11 +190,10 @@ void tracer_filter(const RTCFilterFunctionNArguments* args)
             query.from.triangle == place.triangle)
             return;
         const auto c = corners(world.surfaces[place.index], place.triangle);
-        // Not Embree's t, which depends on where its ray starts.
+        // Computed anew: Embree's t depends on where its ray starts.
         t = meet_plane(c, query.o, query.d).t;
         if (!std::isfinite(t)) return;
-        // Within what rounding to float may have moved the start, a neighbour of what the ray leaves may seem to be
-        // met.
+        // Within the rounding error of the start, a neighbour of the triangle that the ray leaves may seem to be hit.
         const double rounding = 0x1p-20 * (query.o.length() + c[0].length());
         const double nearer = std::min<double>(t, ray->tfar + query.advanced);
         if ((query.from.kind != HitKind::none || t < 0) && nearer <= rounding &&
@@ -248,8 +248,8 @@ double Tracer::scene_radius() const { return impl_->radius; }
 
 namespace {
 
-/// Moves the start of a ray from far away to near the scene's sphere, where a float is precise, and by the step back
-/// that widened spheres need; false when it misses.
+/// Moves the start of a distant ray to the scene's sphere, where a float is precise, and back by the step that widened
+/// spheres need; false when the ray misses the sphere.
 bool approach(const Tracer::Impl& tracer, TracerQuery& query)
 {
     const double radius = tracer.radius;
@@ -257,7 +257,7 @@ bool approach(const Tracer::Impl& tracer, TracerQuery& query)
     query.advanced = query.beyond - tracer.step_back();
     if (query.beyond > 0) return true;
     if (query.o.length2() <= 4 * radius * radius) return true;
-    query.reach = 0; // no sphere is around a start this far out
+    query.reach = 0; // a start this far out is in no sphere
     double t = 0;
     if (!enters_sphere({V3d(0), radius * (1 + 0x1p-10)}, query.o, query.d, t)) return false;
     query.advanced += t;
@@ -301,7 +301,7 @@ Hit Tracer::intersect_inside(const Place& grain, const V3d& o, const V3d& d, con
     } else {
         const V3d to = sphere.centre - o;
         const double along = to.dot(d), r = sphere.radius;
-        // From a point on the sphere the chord is 2 along, without cancellation.
+        // From a point on the sphere the chord is 2 `along`, so that nothing cancels.
         query.best = on_it ? 2 * along : along + std::sqrt(std::max(0.0, r * r - (to - along * d).length2()));
         query.place = {HitKind::grain, grain.index, no_triangle, grain.type};
     }

@@ -17,7 +17,7 @@ Imath::M33d to_matrix(const Imath::Quatd& q)
             2 * (x * z + w * y),     2 * (y * z - w * x),     1 - 2 * (x * x + y * y)};
 }
 
-/// Rotations of ids are functions of these alone; a path comes back to a grain several times.
+/// Cached, as a path returns to the same grain several times. The rotation of an id depends on the id alone.
 const Imath::M33d& recent_rotation(uint64_t id)
 {
     struct Entry {

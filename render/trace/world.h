@@ -25,10 +25,10 @@ struct GrainType {
     std::string name;
     Material material; ///< absorption in render coordinates
     std::shared_ptr<const Exemplar> exemplar;
-    std::shared_ptr<const Gsdf> gsdf = nullptr; ///< its scattering as a proxy, where an integrator may ask for it
+    std::shared_ptr<const Gsdf> gsdf = nullptr; ///< scattering of its proxy, if an integrator needs it
 };
 
-/// Triangles of the scene that are no grains, in render coordinates.
+/// Triangles of the scene that are not grains, in render coordinates.
 struct Surface {
     std::string name;
     std::vector<V3f> positions;
@@ -36,24 +36,24 @@ struct Surface {
     Material material;
 };
 
-/// Everything light can meet, in render coordinates.
+/// Everything that light can interact with, in render coordinates.
 ///
-/// Its grains are listed (a grain is a place in the list) or they are those of a fill (a grain is an id).
+/// The grains are either a list (a grain is then an index into the list) or a fill (a grain is then an id).
 struct World {
     RenderSpace space;
     GrainStore grains;
     std::shared_ptr<const GrainFill> fill;
-    std::optional<Imath::Box3d> domain; ///< what the grains were packed into, where that is known: it bounds them
+    std::optional<Imath::Box3d> domain; ///< the domain that the grains were packed into, if known; it bounds them
     std::vector<GrainType> types;
     std::vector<Surface> surfaces;
     std::vector<MediumRegion> regions;
     std::shared_ptr<const ClearanceField>
-        clearance; ///< within the regions, from all that may be met there; null: nothing is known
+        clearance; ///< Clearance inside the regions from everything that a path may hit there; null: no bound is known.
     LightSet lights;
-    uint64_t replaced_grains = 0; ///< that are no longer there, as a medium stands for all of them
+    uint64_t replaced_grains = 0; ///< number of grains that were removed because a medium replaces all of them
 
     bool has_grains() const { return fill || grains.size() > 0; }
-    /// How many there are; of a fill about, as nobody has counted them.
+    /// The number of grains; of a fill, the expected number.
     uint64_t grain_count() const { return fill ? static_cast<uint64_t>(fill->fill().expected_count()) : grains.size(); }
     GrainSphere sphere(uint64_t grain) const
     {

@@ -1,4 +1,4 @@
-// Direct light by sampling lights, by scattering alone, and by both weighed: three estimators of one picture.
+// Direct light by light sampling, by scattering alone, and by both with MIS weights: three estimators of one image.
 
 #include "render/integrators/path_tracer.h"
 #include "tests/builders/scenes.h"
@@ -65,8 +65,8 @@ TEST(DirectLight, EveryStrategyGivesTheSamePicture)
     EXPECT_LT(mean[0].standard_error(), mean[2].standard_error());
 }
 
-// Irradiance on a floor, by hand: a sphere light of radius r at height h straight above gives E = pi L (r / h)^2; the
-// sun of irradiance E at cosine c gives c E. The floor of reflectance rho then shows rho E / pi.
+// Irradiance on a floor in closed form: a sphere light of radius r at height h straight above gives E = pi L (r / h)^2;
+// the sun of irradiance E at cosine c gives c E. A floor of reflectance rho then has radiance rho E / pi.
 TEST(DirectLight, FloorShowsTheIrradianceByHand)
 {
     TestScene scene;

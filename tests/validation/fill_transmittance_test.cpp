@@ -1,11 +1,11 @@
-// Light must not see that a fill repeats itself: a dilute fill dims a beam as independent spheres do, along any
+// The repetition of a fill must not affect light: a dilute fill attenuates a beam like independent spheres, along any
 // direction.
 //
-// A parallel beam crosses a ball of radius R, all spheres whole in it: their centres lie in the ball of radius R - r,
-// and a ray at distance b from its middle is met by those in a cylinder of radius r around it. Free paths among hard
-// spheres are 4 r (1 - f) / (3 f) long in the mean, exponential when dilute; so the beam keeps exp(-2 sqrt((R - r)^2 -
-// b^2) 3 f / (4 r (1 - f))). Without rotation and variants a beam along an axis of the lattice keeps far more: the same
-// shadows again and again.
+// A parallel beam crosses a ball of radius R that contains only whole spheres. Their centres lie in the ball of radius
+// R - r, and a ray at distance b from its middle hits those in a cylinder of radius r around the ray. The mean free
+// path among hard spheres is 4 r (1 - f) / (3 f), exponential when dilute; so the transmittance is exp(-2 sqrt((R -
+// r)^2 - b^2) 3 f / (4 r (1 - f))). Without rotation and variants far more of a beam along a lattice axis passes,
+// because the same shadows repeat.
 
 #include "base/sampler.h"
 #include "mixtures/single_mixture.h"
@@ -36,7 +36,7 @@ protected:
         tracer_ = std::make_unique<Tracer>(std::make_shared<EmbreeDevice>(), world_);
     }
 
-    /// Measured over expected transmittance of a beam along d, and the standard error of that, from 64 patches of the
+    /// The ratio of measured to expected transmittance of a beam along d, and its standard error from 64 patches of the
     /// beam.
     std::pair<double, double> ratio(const V3d& d, uint32_t seed) const
     {
@@ -63,8 +63,8 @@ protected:
         return {mean / truth, error / truth};
     }
 
-    /// Some forty directions of one kind: their mean ratio must be 1 within 4 standard errors, and none may stand out
-    /// by 5.
+    /// About forty directions of one kind: their mean ratio must be 1 within 4 standard errors, and no single one may
+    /// deviate by more than 5.
     void expect_dim(const std::vector<V3d>& directions, const char* what) const
     {
         double mean = 0, variance = 0;
@@ -79,7 +79,7 @@ protected:
         EXPECT_LT(std::sqrt(variance), 0.1) << "too weak a test";
     }
 
-    double radius_ = 0.004; // depth at the middle: 3.8
+    double radius_ = 0.004; // optical depth through the middle: 3.8
     std::shared_ptr<const ProceduralFill> fill_;
     World world_;
     std::unique_ptr<Tracer> tracer_;
@@ -103,8 +103,8 @@ TEST_F(FillTransmittance, AlongRandomDirections)
     expect_dim(directions, "random directions");
 }
 
-// What the rotation is for, and the power of the tests above: along its own axes the lattice shows (boundary spheres
-// repeat).
+// Shows why the rotation is needed, and that the tests above can fail: along its own axes the lattice has an effect
+// (boundary spheres repeat).
 TEST_F(FillTransmittance, AlongTheLatticeItselfMore)
 {
     double mean = 0;

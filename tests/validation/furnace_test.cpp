@@ -1,5 +1,5 @@
-// The white furnace: lossless grains in a constant surrounding of radiance 1 are invisible, whatever their shape,
-// roughness and overlap, and however long the paths. Every slip of a weight (n^2, Fresnel, roulette) shows here.
+// The white furnace: lossless grains in a constant environment of radiance 1 are invisible, whatever their shape,
+// roughness and overlap, and however long the paths. Every error in a weight (n^2, Fresnel, roulette) shows here.
 
 #include "render/integrators/path_tracer.h"
 #include "tests/builders/scenes.h"
@@ -20,7 +20,7 @@ struct Furnace {
     uint32_t longest = 0;
 };
 
-/// Paths from all around towards the scene's middle.
+/// Paths from all sides towards the scene's middle.
 Furnace run_furnace(const TestScene& scene, uint32_t paths, const PathOptions& options = {})
 {
     Furnace total;
@@ -83,7 +83,7 @@ void PrintTo(const FurnaceCase& c, std::ostream* out) { *out << c.name; }
 
 class GrainFurnace : public testing::TestWithParam<FurnaceCase> {};
 
-// A constant light is only found by scattering: every path must bring exactly 1.
+// A constant light is found only by scattering: every path must return exactly 1.
 TEST_P(GrainFurnace, IsWhite)
 {
     const FurnaceCase& c = GetParam();
@@ -119,8 +119,9 @@ Light white_environment()
     return light;
 }
 
-// The same light as a map, which is sampled: now the estimators and densities of the rough BSDF must agree with what is
-// scattered. Standard errors 0.008, 0.04 and 0; a normalisation wrong by 3 % (of a single event: 1 %) is found.
+// The same light as an environment map, which is sampled: now the values and densities of the rough BSDF must agree
+// with its sampled directions. Standard errors 0.008, 0.04 and 0; a normalisation error of 3 % (of a single event: 1 %)
+// is found.
 TEST(SampledFurnace, RoughGrainsAreWhiteByEveryStrategy)
 {
     for (const DirectLight strategy : {DirectLight::both, DirectLight::lights_only, DirectLight::scattering_only}) {
@@ -138,7 +139,7 @@ TEST(SampledFurnace, RoughGrainsAreWhiteByEveryStrategy)
     }
 }
 
-// Types mixed, a surface cutting through the bed, a glass box around a part of it: everything lossless.
+// Mixed types, a surface that cuts through the bed, a glass box around a part of it: everything is lossless.
 TEST(Furnace, MixedSceneIsWhite)
 {
     TestScene scene;
@@ -154,7 +155,7 @@ TEST(Furnace, MixedSceneIsWhite)
     expect_white(run_furnace(scene, 3000), "mixed");
 }
 
-// Nothing leaves a closed room of white walls: a path that slips out between two of them would bring light in.
+// No path leaves a closed room of white walls: a path that leaks between two walls would return light.
 TEST(ClosedRoom, LetsNoLightIn)
 {
     for (const double half : {1.0, 17.3, 20.0}) {

@@ -1,5 +1,4 @@
-// A medium in the place of grains: what it is made of, that no light is lost between the two, and that pictures stay
-// the same.
+// A medium that replaces grains: its numbers, no loss of light between grains and medium, and unchanged images.
 
 #include "base/warp.h"
 #include "mixtures/checkerboard_mixture.h"
@@ -55,7 +54,7 @@ TEST(PackingSample, SharesKeepSumsOfPowersOfTheRadius)
 
 TEST(WalkLike, FindsTheFormulaInAThinMixtureOfTypesAndSizes)
 {
-    TestScene scene; // large glass, small white: which is which matters
+    TestScene scene; // large glass and small white grains: confusing the two would show
     scene.set_gsdf(scene.add_type(dielectric(1.5)), gsdf_of(dielectric(1.5)));
     scene.set_gsdf(scene.add_type(lambert(0.8f)), gsdf_of(lambert(0.8f)));
     PackingSample sample;
@@ -114,7 +113,8 @@ Estimate shine_in(const World& world, const Tracer& tracer, uint32_t paths, cons
 
 TEST(GrainMediumFurnace, IsWhite)
 {
-    // Glass and white spheres, a pane of glass through grains and medium, grains near faces as they are or as proxies.
+    // Glass and white spheres, a pane of glass through grains and medium; grains near faces are explicit geometry or
+    // proxies.
     TestScene constant, sampled;
     for (TestScene* scene : {&constant, &sampled}) {
         const uint32_t glass = scene->add_type(dielectric(1.5)), white = scene->add_type(lambert(1));
@@ -131,7 +131,7 @@ TEST(GrainMediumFurnace, IsWhite)
     const Cored dark(constant, 2, EquivalentForm::formula, StfForm::full),
         bright(sampled, 2, EquivalentForm::formula, StfForm::full);
     ASSERT_EQ(dark.world.regions.size(), 1u);
-    EXPECT_EQ(dark.world.regions[0].medium->uniform(), nullptr); // of a list it varies
+    EXPECT_EQ(dark.world.regions[0].medium->uniform(), nullptr); // the medium of a list of grains varies in space
     for (const uint32_t explicit_grains : {0u, all_grains}) {
         PathOptions options;
         options.explicit_grains = explicit_grains;
@@ -145,10 +145,10 @@ TEST(GrainMediumFurnace, IsWhite)
         EXPECT_NEAR(plain.mean(), 1, 1e-5) << explicit_grains;
         for (const DirectLight strategy : {DirectLight::both, DirectLight::lights_only, DirectLight::scattering_only}) {
             if (explicit_grains == all_grains && strategy == DirectLight::lights_only)
-                continue; // nothing that smooth glass could sample
+                continue; // smooth glass has nothing to sample
             options.direct_light = strategy;
-            // Of light that is only sampled a few paths bring most: with fewer of them the standard error would not be
-            // known.
+            // With light sampling alone a few paths carry most of the light: fewer paths would give no reliable
+            // standard error.
             const uint32_t paths = strategy == DirectLight::lights_only ? 400000 : 20000;
             const Estimate e = shine_in(bright.world, *bright.tracer, paths, options, 18);
             EXPECT_LT(std::abs(e.z(1)), 4) << explicit_grains << " as they are, strategy " << static_cast<int>(strategy)
@@ -160,9 +160,9 @@ TEST(GrainMediumFurnace, IsWhite)
 
 TEST(GrainMedium, LeavesPicturesOfBedsAsTheyAre)
 {
-    // 1.3 %: 4 of the standard errors of 60,000 paths and what is promised, 1 %.
+    // 1.3 %: the promised 1 % plus 4 standard errors of 60,000 paths.
     for (const BedGrain& grain : bed_grains(0.05)) {
-        if (grain.name == "glass cubes" || grain.name == "flour") continue; // as sugar and white spheres
+        if (grain.name == "glass cubes" || grain.name == "flour") continue; // similar to sugar and white spheres
         const auto bed = make_bed(grain, 0.6, 6000);
         const Cored cored(*bed, 4, EquivalentForm::decay);
         ASSERT_EQ(cored.world.regions.size(), 1u) << grain.name;
@@ -204,7 +204,7 @@ TEST(GrainMedium, OfAFillVariesAsItsMixtureDoes)
     ASSERT_NE(same.regions[0].medium->uniform(), nullptr);
     ASSERT_EQ(board.regions.size(), 1u);
     ASSERT_EQ(board.regions[0].medium->uniform(), nullptr);
-    // Pure types in the middles of the cells: those of the homogeneous media.
+    // In the middles of the cells there is one type only: the medium is that type's homogeneous medium.
     const Medium& grid = *board.regions[0].medium;
     const std::array<double, 2> albedo{grid.albedo({20, 20, 20}).x, grid.albedo({-20, 20, 20}).x};
     EXPECT_NEAR(std::max(albedo[0], albedo[1]), 1, 1e-5);

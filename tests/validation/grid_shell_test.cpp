@@ -1,4 +1,4 @@
-// Shells in media of grids: what varies within a shell's reach must not be taken for its mean.
+// Shells in grid media: variation within a shell must not be replaced by its mean.
 
 #include "render/media/grid_medium_build.h"
 #include "tests/builders/shapes.h"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr int n = 40; // the grid goes from -n to n over the cube -1..1
 
-/// What the grids hold at a voxel.
+/// The values of the grids at a voxel.
 struct Voxel {
     float density, albedo = 0.99f, g = 0;
 };
@@ -21,7 +21,7 @@ struct Found {
     uint64_t shells = 0;
 };
 
-/// The mean radiance of a cube of a medium, seen from all around; shells or not.
+/// The mean radiance of a cube of a medium, seen from all sides, with or without shells.
 template <class Fill>
 Found look(const Fill& fill, const Light& light, bool nearest, bool shells, uint32_t paths)
 {
@@ -96,7 +96,7 @@ Light sun()
 
 TEST(GridShells, FollowDensityAndAlbedoAndAsymmetry)
 {
-    // A density and an asymmetry that grow by half over the cube, an albedo that falls.
+    // Density and asymmetry grow by half over the cube, the albedo falls.
     const auto fill = [](int x, int y, int) {
         const float part = 0.5f * (1 + static_cast<float>(x + y) / (2 * n));
         return Voxel{40 + 20 * part, 0.999f - 0.01f * part, 0.3f + 0.3f * part};
@@ -105,8 +105,9 @@ TEST(GridShells, FollowDensityAndAlbedoAndAsymmetry)
     EXPECT_GT(expect_equal(fill, bright_top(), false, 0.01, "a density that grows"), 3000u); // more than three a path
 }
 
-// Boards of 1.9 and 0.1 times a density of 64 a unit, their fields 12 and 49 mean free paths wide in the denser. Taken
-// for their means, as once they were, they came out 6 % and 3 % off; 5 % shows. Shells fit only within the fields.
+// Checkerboards with 1.9 and 0.1 times a density of 64 per unit; their fields are 12 and 49 mean free paths wide where
+// denser. An earlier version used the means and had errors of 6 % and 3 %; 5 % is detected. Shells fit only inside the
+// fields.
 TEST(GridShells, SeeACheckerboard)
 {
     for (const bool nearest : {false, true}) {
@@ -127,8 +128,8 @@ TEST(GridShells, DoNotSeeThinFields)
     EXPECT_GT(expect_equal(fill, bright_top(), false, 0.005, "fine and thin fields"), 300u);
 }
 
-// Dense within thin: light comes from much nearer than the face of the cube would be at the ball's density, or voxels
-// at half of theirs.
+// Dense inside thin: light comes from much nearer than the face of the cube would be at the ball's density, or voxels
+// at half their density.
 TEST(GridShells, FindTheSunThroughThinSurroundings)
 {
     const auto fill = [](int x, int y, int z) { return Voxel{x * x + y * y + z * z < n * n / 16 ? 240.f : 0.05f}; };

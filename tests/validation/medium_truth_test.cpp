@@ -1,5 +1,5 @@
 // Homogeneous media against exact solutions of the transport equation (van de Hulst 1980, Multiple Light Scattering),
-// and against themselves where the answer does not depend on how light is found or on the unit of length.
+// and against themselves, as the result must not depend on the sampling strategy or the unit of length.
 
 #include "render/integrators/path_tracer.h"
 #include "tests/builders/scenes.h"
@@ -12,7 +12,7 @@
 namespace scree {
 namespace {
 
-constexpr double systematic = 1e-3; // what the slabs may be off by
+constexpr double systematic = 1e-3; // allowed bias of the slabs
 
 void expect_truth(const Estimate& estimate, double truth, const std::string& what)
 {
@@ -70,7 +70,7 @@ TEST(Slab, IsTheSameAsAGrid)
 
 TEST(Slab, IsTheSumOfTwoThatTouch)
 {
-    for (const bool grey : {true, false}) { // both of one kind, or of two that add up in one box
+    for (const bool grey : {true, false}) { // one grey medium, or two media that add up in one box
         TestScene scene;
         const double wide = 6e3;
         if (grey) {
@@ -90,7 +90,7 @@ TEST(Slab, IsTheSumOfTwoThatTouch)
 
 TEST(Slab, ChannelsThatSeeItDifferentlyAreEachRight)
 {
-    // tau 2, 10 and 0.1; single channels are known from the above or by a walk of their own.
+    // tau 2, 10 and 0.1; the single channels are known from above or from separate walks.
     const ReflectedAndPassed all = shine(*slab(1, V3d(2, 10, 0.1), Color(0.9f, 1, 0.9f), 0), paths, 1, 9);
     for (int c = 0; c < 3; ++c) {
         const ReflectedAndPassed own = shine(*slab(1,
@@ -149,7 +149,7 @@ TEST(MediumFurnace, IsWhiteAfterAHundredThousandScatterings)
     std::printf("scatterings of a path: %.0f\n", events.mean());
 }
 
-/// Finds 1 by every strategy in the white scene that `add` makes.
+/// Expects radiance 1 with every strategy in the white scene that `add` makes.
 template <class Add>
 void expect_white(const Add& add, const std::string& what)
 {

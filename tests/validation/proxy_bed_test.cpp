@@ -1,5 +1,5 @@
-// Packed beds: mean radiance by proxies against grains as they are, within 1 % (blue, where the tea-coloured glass
-// absorbs most).
+// Packed beds: the mean radiance with proxies agrees with explicit geometry within 1 % (in blue, where the tea-coloured
+// glass absorbs most).
 
 #include "tests/builders/grain_beds.h"
 
@@ -27,7 +27,7 @@ TEST(ProxyBeds, MeanRadianceIsThatOfGrainsAsTheyAre)
     for (const BedGrain& grain : bed_grains(0.05)) {
         for (const double fraction : {0.2, 0.4, 0.6}) compare(grain, fraction, grain.name);
         if (grain.name != "tea glass spheres") continue;
-        for (const float times : {0.25f, 4.0f}) { // as of grains a quarter and four times as large
+        for (const float times : {0.25f, 4.0f}) { // like grains a quarter and four times as large
             BedGrain other = grain;
             other.material.absorption *= times;
             compare(other, 0.4, grain.name + (times < 1 ? ", small" : ", large"));

@@ -1,5 +1,4 @@
-// The white furnace with proxies: lossless grains are invisible in a constant surrounding, whichever strategy finds the
-// light.
+// The white furnace with proxies: lossless grains are invisible in a constant environment with every sampling strategy.
 
 #include "base/warp.h"
 #include "render/integrators/path_tracer.h"
@@ -19,7 +18,7 @@ const std::vector<PackedSphere>& bed()
     return spheres;
 }
 
-/// Mean radiance of paths from all around towards the middle.
+/// Mean radiance of paths from all sides towards the middle.
 Estimate shine_in(const TestScene& scene, uint32_t paths, const PathOptions& options)
 {
     std::vector<double> values(paths);

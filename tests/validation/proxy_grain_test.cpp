@@ -16,8 +16,8 @@ namespace scree {
 namespace {
 
 constexpr uint32_t rotations = 256;
-constexpr std::array<double, 5> angles{10, 50, 90, 130, 170}; // degrees by which light is turned
-constexpr double half_width = 2; // degrees: of the sun's disc
+constexpr std::array<double, 5> angles{10, 50, 90, 130, 170}; // scattering angles in degrees
+constexpr double half_width = 2; // of the sun's disc, in degrees
 
 Light sun(const V3d& towards, double degrees)
 {
@@ -30,7 +30,7 @@ Light sun(const V3d& towards, double degrees)
     return light;
 }
 
-/// A grain of a library type whose absorption at its natural size is the material's, alone under a light.
+/// A single grain of a library type under a light; its absorption at its natural size is the material's.
 std::unique_ptr<TestScene> grain_under(const Light& light, const LibraryGrain& grain,
                                        std::shared_ptr<const Exemplar> body, std::shared_ptr<const Gsdf> gsdf,
                                        uint64_t id)
@@ -77,8 +77,8 @@ Estimate over(const std::vector<double>& sums, uint32_t paths)
     return estimate;
 }
 
-/// Radiance under each of the suns. Without anything to sample them by, paths are counted by their last direction, over
-/// all suns at the same angle.
+/// Radiance under each of the suns. If light cannot be sampled, paths are counted by their last direction, over all
+/// suns at the same angle.
 std::array<Estimate, 5> radiance_as_is(const std::vector<std::unique_ptr<TestScene>>& scenes, uint32_t paths)
 {
     std::array<std::vector<double>, 5> sums;
@@ -109,8 +109,8 @@ TEST_P(GrainUnderSun, ProxyIsTheMeanGrain)
     if (grain.default_triangles > 0)
         body = std::make_shared<Exemplar>(*device, make_grain_shape(grain, {0, 2000, {}}, "test"), "test");
     const auto gsdf = build_gsdf({body.get(), grain.material}, {0.08});
-    // The hairball's fibres run through each other and, coarse as here, through themselves: there are pockets without a
-    // way out.
+    // The hairball's fibres intersect each other and, as coarse as here, themselves: there are closed pockets without
+    // an exit.
     const double lost =
         static_cast<double>(gsdf->data().quality.lost) / static_cast<double>(gsdf->data().quality.paths);
     EXPECT_LE(lost, grain.name == "hairball" ? 2e-3 : 0.0);
@@ -131,7 +131,7 @@ TEST_P(GrainUnderSun, ProxyIsTheMeanGrain)
         look(under_sun, d, paths, options, 2,
              [&](size_t i, const PathResult& path, const PathVertex&) { sums[i] += path.radiance.y; });
         const Estimate proxy = over(sums, paths);
-        // The density of directions was itself counted, twice a path, in rows of the polar angle.
+        // The density of directions was itself estimated from two counts per path, in rows of the polar angle.
         const double counts = 2 * static_cast<double>(gsdf->data().quality.paths) * proxy.mean() * 2 * pi *
                               std::sin(a) * DirectionGrid::row_width;
         const double error =

@@ -1,4 +1,4 @@
-// One grain under a beam: mean cosine of scattering, and what a tint takes.
+// One grain under a beam: mean cosine of scattering, and the loss by a tint.
 
 #include "render/integrators/path_tracer.h"
 #include "tests/builders/scenes.h"
@@ -10,7 +10,7 @@
 namespace scree {
 namespace {
 
-/// A single unit sphere in nothing.
+/// A single unit sphere in empty space.
 std::unique_ptr<TestScene> one_grain(const Material& material)
 {
     auto scene = std::make_unique<TestScene>();
@@ -24,7 +24,7 @@ struct Beam {
     Estimate cosine, radiance;
 };
 
-/// A parallel beam over the sphere's cross-section; the cosine is that between entering and leaving.
+/// A parallel beam over the sphere's cross-section; the cosine is that between the entering and the leaving direction.
 Beam shine(const TestScene& scene, uint32_t n)
 {
     Beam beam;
@@ -74,7 +74,7 @@ TEST(SingleGrain, FineMeshScattersLikeTheSphere)
     std::printf("mesh: %.5f +- %.5f\n", beam.cosine.mean(), beam.cosine.standard_error());
 }
 
-// An interface that is only a tint: two interfaces along the way, each weighs 0.98.
+// An interface that only tints: the path crosses two interfaces, each with weight 0.98.
 TEST(SingleGrain, BothInterfacesCount)
 {
     Material tinted = dielectric(1);
@@ -83,7 +83,7 @@ TEST(SingleGrain, BothInterfacesCount)
     EXPECT_NEAR(sphere.radiance.mean(), 0.9604, 1e-6);
     EXPECT_NEAR(sphere.cosine.mean(), 1, 1e-12);
 
-    TestScene scene; // and the same for a mesh
+    TestScene scene; // the same for a mesh
     scene.add_grain(V3d(0), 1, scene.add_type(tinted, cube()));
     scene.add_constant_light(1);
     scene.build();
@@ -113,8 +113,8 @@ TEST(SingleGrain, AbsorbsByItsSize)
     }
 }
 
-// A clear grain of radius 0.5 in a box of tea 2 wide, nothing refracts: the way through the middle absorbs over 1,
-// however the segments end.
+// A clear grain of radius 0.5 in a box of tea 2 wide, without refraction: the path through the middle absorbs over a
+// length of 1, however it is divided into segments.
 TEST(SingleGrain, SurroundingSurfaceAbsorbsOnTheWayInAndOut)
 {
     Material tea = dielectric(1);
@@ -125,7 +125,7 @@ TEST(SingleGrain, SurroundingSurfaceAbsorbsOnTheWayInAndOut)
     scene.add_constant_light(1);
     scene.build();
     const double scale = scene.space().length(1);
-    Estimate radiance; // roulette scatters it
+    Estimate radiance; // roulette makes it noisy
     for (uint32_t i = 0; i < 20000; ++i) {
         Sampler sampler(1, i, 0, 0);
         radiance.add(trace_path(scene.world(), scene.tracer(), scale * V3d(0.001, 0.0005, -5), V3d(0, 0, 1), sampler)
@@ -135,11 +135,11 @@ TEST(SingleGrain, SurroundingSurfaceAbsorbsOnTheWayInAndOut)
     EXPECT_LT(radiance.standard_error(), 0.005);
 }
 
-// A Lambertian sphere of albedo rho in a constant surrounding is rho all over.
+// A Lambertian sphere of albedo rho in a constant environment of radiance 1 has radiance rho everywhere.
 TEST(SingleGrain, LambertShowsItsReflectance)
 {
     const Beam beam = shine(*one_grain(lambert(0.3f)), 20000);
-    EXPECT_NEAR(beam.radiance.mean(), 0.3, 1e-6); // every path weighs the same
+    EXPECT_NEAR(beam.radiance.mean(), 0.3, 1e-6); // every path has the same weight
 }
 
 } // namespace

@@ -10,7 +10,7 @@
 namespace scree {
 namespace {
 
-constexpr double systematic = 5e-3; // what shells may put a slab off by
+constexpr double systematic = 5e-3; // allowed bias of a slab with shells
 
 void expect_truth(const Estimate& estimate, double truth, const std::string& what)
 {
@@ -87,8 +87,8 @@ TEST(ShellTracing, IsWhiteInAFurnaceInEveryForm)
             scene->add_surface(box_mesh({-0.9, -0.9, -0.6}, {0.4, 0.5, -0.5}), dielectric(1.33));
             TriangleMesh ball = icosphere(2);
             for (V3d& p : ball.positions) p = 0.7 * p + V3d(0.5, 0.2, -0.4);
-            scene->add_medium(ball, V3d(12), Color(1),
-                              -0.3); // through the cube's faces: where both are, light goes from event to event
+            // Through the cube's faces: where both media overlap, light goes from event to event.
+            scene->add_medium(ball, V3d(12), Color(1), -0.3);
             scene->use_shells(form);
         }
         constant.add_constant_light(1);
@@ -101,8 +101,8 @@ TEST(ShellTracing, IsWhiteInAFurnaceInEveryForm)
             PathOptions options;
             options.direct_light = strategy;
             const Estimate e = from_all_around(sampled.world(), sampled.tracer(), 30'000, 4, options, 6);
-            // What scattering alone finds is 1 but for rounding; by light sampling records are off by what their
-            // scatterings near the shell are.
+            // With scattering alone the result is 1 up to rounding; with light sampling, records have the error of
+            // their scatterings near the shell.
             const double off = strategy == DirectLight::scattering_only ? 1e-5 : systematic;
             EXPECT_LT(std::abs(e.mean() - 1), 4 * e.standard_error() + off)
                 << stf_form_names[form] << ", strategy " << static_cast<int>(strategy);
@@ -137,10 +137,10 @@ TEST(ShellTracing, FindsLightByEveryStrategyAsVolumetricPathTracingDoes)
 
 TEST(ShellTracing, WeighsLightByThePhaseFunctionThatRecordsAreDrawnFrom)
 {
-    // Nearly all light goes on or back within 36 degrees of its way: looking from the middle, where shells are largest,
-    // under a sun behind the viewer, the table has five times the density of Henyey and Greenstein's phase function of
-    // the same mean cosine, 0, which the last two forms take instead. With light sampled by the one and directions
-    // drawn from the other, the first two strategies were 0.066 and 0.026.
+    // Nearly all light is scattered within 36 degrees of forwards or backwards. Looking from the middle, where shells
+    // are largest, with the sun behind the viewer, the table has five times the density of the Henyey-Greenstein phase
+    // function with the same mean cosine, 0, which the last two forms use instead. When light was sampled with one and
+    // directions were drawn from the other, the first two strategies gave 0.066 and 0.026.
     CosineTable bins;
     for (uint32_t i = 0; i < CosineTable::bins; ++i) {
         const double cosine = (i + 0.5) * CosineTable::width() - 1;

@@ -1,4 +1,4 @@
-// Grains that are narrower than a pixel where they are seen: as bright as proxies from the first on.
+// Grains that are narrower than a pixel are as bright as with proxies from the first hit on.
 
 #include "base/warp.h"
 #include "render/integrators/path_tracer.h"
@@ -14,8 +14,8 @@ namespace {
 constexpr int edge = 20; // grains
 constexpr uint32_t paths = 120'000;
 
-/// Cubes (each turned its own way) that cover a fifth of a plane, in an absorbing fog or not, with light that comes
-/// from where they are looked at.
+/// Cubes (each with its own rotation) that cover a fifth of a plane, with or without absorbing fog, lit from the
+/// viewer's direction.
 std::unique_ptr<TestScene> sparse_layer(bool fog)
 {
     auto scene = std::make_unique<TestScene>();
@@ -54,8 +54,8 @@ Estimate seen(const TestScene& scene, const PathOptions& options, uint64_t seed)
 
 class UnresolvedGrains : public testing::TestWithParam<bool> {};
 
-// Which cubes a ray meets depends on how they are turned: that of 400 is known to 0.5 %. Rays that were traced again
-// from the start, as once they were, were 14 % too dark without fog and 62 % with it.
+// The cubes that a ray hits depend on their rotations: the mean over 400 cubes is known to 0.5 %. An earlier version
+// traced rays again from the start; it was 14 % too dark without fog and 62 % with it.
 TEST_P(UnresolvedGrains, AreMetOnceAndNotMissedTwice)
 {
     const auto scene = sparse_layer(GetParam());

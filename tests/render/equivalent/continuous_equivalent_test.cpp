@@ -1,4 +1,4 @@
-// The numbers of the medium that stands for a packing, against simulated walks of independent flights.
+// The numbers of the equivalent medium of a packing, against simulated walks with independent flights.
 
 #include "base/error.h"
 #include "base/warp.h"
@@ -40,7 +40,8 @@ struct Walked {
     Estimate l, m2, g, a, b, delta2, diffusivity, transport, weight, weighted_cosine;
 };
 
-/// Walks of independent flights among grains of the shares, exponential in the voids, each encounter as a proxy's.
+/// Walks with independent flights among grains of the shares: exponential in the voids, each encounter like that with a
+/// proxy.
 Walked walk_independently(std::span<const GrainShare> shares, double void_flight, int walks, int events, int window)
 {
     std::vector<double> cumulated;
@@ -130,7 +131,7 @@ void expect_agreement(std::span<const GrainShare> shares, double fraction, const
         {"D", &walked.diffusivity, mixture.diffusivity()},
         {"l*", &walked.transport, mixture.transport_length()}};
     for (const auto& [name, estimate, truth] : rows) {
-        // A window of 40 scatterings leaves 0.66^40 of what light remembers: nothing.
+        // After a window of 40 scatterings 0.66^40 of the memory of light is left: nothing.
         EXPECT_LT(std::abs(estimate->mean() - truth), 4 * estimate->standard_error() + 1e-6 * std::abs(truth))
             << what << " f " << fraction << " " << name;
         std::printf("%-14s f %.2f %-8s formula %9.5f walked %9.5f +- %.5f\n", what.c_str(), fraction, name, truth,
@@ -167,14 +168,14 @@ TEST(ContinuousEquivalent, VoidFlightIsTheMeanChordOfTheVoids)
     EXPECT_DOUBLE_EQ(mixture_moments(shares, f).void_flight, 4 * (1 - f) * r3 / (3 * f * r2));
 }
 
-// A reciprocal grain goes backwards as it goes forwards.
+// A reciprocal grain scatters backwards along a path as it does forwards.
 TEST(ContinuousEquivalent, WaysInAndOutAreAlike)
 {
     for (const Grains& grains : all_grains_once()) {
         const GrainMoments moments = grain_moments(*grains.gsdf);
         std::printf("g %.5f a %.5f b %.5f delta2 %.5f alpha0 %.5f\n", moments.g, moments.along_in, moments.along_out,
                     moments.delta2, moments.alpha0);
-        // Each is the mean over the records kept, of 32 * 2048 cells; what they scatter by is less than 1.
+        // Each is a mean over the stored records of 32 * 2048 cells; their standard deviation is below 1.
         EXPECT_NEAR(moments.along_in, moments.along_out,
                     4 / std::sqrt(static_cast<double>(grains.gsdf->data().records.size())));
     }
@@ -209,7 +210,7 @@ TEST(ContinuousEquivalent, FormsKeepWhatTheyPromise)
     EXPECT_NEAR(formula.diffusivity, mixture.diffusivity(), 1e-12 * mixture.diffusivity());
     EXPECT_NEAR(formula.transport_length, mixture.transport_length(), 1e-12 * mixture.transport_length());
     EXPECT_EQ(formula.albedo, mixture.albedo);
-    EXPECT_EQ(formula.albedo.z, 1); // blue is not absorbed: nothing is lost, not nearly nothing
+    EXPECT_EQ(formula.albedo.z, 1); // blue is not absorbed: exactly 1
     EXPECT_EQ(formula.decay.z, 0);
     EXPECT_THROW(continuous_equivalent(mixture, EquivalentForm::decay), std::invalid_argument);
 }

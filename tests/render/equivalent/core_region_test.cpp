@@ -52,7 +52,7 @@ std::optional<RegionSurface> core(const Spheres& spheres, double depth, const He
     return core_of_spheres(spheres, depth, Progress(), options);
 }
 
-/// Whether every edge has its opposite: closed, though perhaps with more than two faces at an edge.
+/// Whether every edge has its opposite: a closed surface, perhaps with more than two faces at an edge.
 bool is_balanced(const RegionSurface& surface)
 {
     std::map<std::pair<uint32_t, uint32_t>, int> edges;
@@ -77,7 +77,7 @@ double distance_to_triangle(const V3d& p, const V3d& a, const V3d& b, const V3d&
     return std::min({segment(a, b), segment(b, c), segment(c, a)});
 }
 
-/// Least distance of the region's corners from a mesh; of some of them where they are many.
+/// Least distance of the region's vertices from a mesh; of a part of them if they are many.
 double least_distance(const RegionSurface& region, const RegionSurface& mesh)
 {
     double least = INFINITY;
@@ -103,7 +103,7 @@ TEST(InsetOfMesh, MeetsTheFacesOfABoxExactly)
             const V3d q = V3d(p) - V3d(0.1f, 0.2f, 0.3f);
             const V3d beyond(std::abs(q.x) - half.x, std::abs(q.y) - half.y, std::abs(q.z) - half.z);
             const double out = std::max({beyond.x, beyond.y, beyond.z});
-            // Next to the inset's edges the field may know the wrong one of two faces.
+            // Near the inset's edges the field may hold the distance to the wrong one of two faces.
             const int near_edge =
                 (beyond.x > -2 * region->voxel) + (beyond.y > -2 * region->voxel) + (beyond.z > -2 * region->voxel);
             EXPECT_LT(out, near_edge > 1 ? 0.25 * region->voxel : 1e-3 * depth);
@@ -112,7 +112,7 @@ TEST(InsetOfMesh, MeetsTheFacesOfABoxExactly)
             }
             on_faces += out > -1e-3 * depth;
         }
-        // Only next to the edges do corners of cells fall inside.
+        // Vertices lie inside only near the edges.
         EXPECT_GT(static_cast<double>(on_faces) / static_cast<double>(region->positions.size()),
                   depth > 0.2 ? 0.6 : 0.9);
         const double volume = signed_volume(to_mesh(*region)), exact = 8 * half.x * half.y * half.z;
@@ -198,8 +198,7 @@ TEST(InsetOfMesh, RefusesOpenMeshesAndNegativeDepths)
     EXPECT_THROW(inset_of_mesh(box.positions, box.triangles, 0.1, progress), Cancelled);
 }
 
-/// A bed of spheres of radius 1, the part whose centres are in -half..half: its faces are about half + 1 from the
-/// middle.
+/// A bed of spheres of radius 1: those with centres in -half..half, so its faces are about half + 1 from the middle.
 Spheres block_of_bed(double fraction, const V3d& half)
 {
     const auto tile = push_apart(300, fraction, 1, 0.01, 5);
@@ -215,7 +214,7 @@ Spheres block_of_bed(double fraction, const V3d& half)
     return spheres;
 }
 
-/// Where rays along z towards the middle enter the surface, mean of |z| over a grid of places within `reach` of the
+/// Mean of |z| where rays along z towards the middle enter the surface, over a grid of points within `reach` of the
 /// axis.
 double mean_height(const RegionSurface& region, double reach)
 {
@@ -240,7 +239,7 @@ double mean_height(const RegionSurface& region, double reach)
     return sum / count;
 }
 
-/// The largest ball around a place that meets no sphere has this radius; negative inside of spheres.
+/// The radius of the largest ball around a point that intersects no sphere; negative inside spheres.
 double void_radius(const Spheres& spheres, const V3d& place)
 {
     double least = INFINITY;
@@ -258,7 +257,7 @@ TEST(CoreOfSpheres, LiesBelowTheFacesOfABlock)
         EXPECT_TRUE(is_balanced(*region));
         EXPECT_FALSE(region->coarsened);
         EXPECT_NEAR(region->voxel, 1, 1e-6);
-        // Centres end at the cut; as much of the grains is beyond it as of those cut away would be below.
+        // The centres end at the cut: the grains' volume beyond it equals the volume below it of the removed grains.
         EXPECT_NEAR(mean_height(*region, 5), half.z - depth, 0.5) << depth;
         const V3d expected = (half - V3d(depth)) * 2;
         EXPECT_NEAR(std::cbrt(signed_volume(to_mesh(*region))), std::cbrt(expected.x * expected.y * expected.z), 0.5)
@@ -274,8 +273,8 @@ TEST(CoreOfSpheres, HasNoPointNearTheOutside)
     const double depth = 2;
     const auto region = core(spheres, depth, options);
     ASSERT_TRUE(region);
-    // Points of the outside: a ball of the closing's radius around one meets no sphere, so the hull is that radius away
-    // from it.
+    // Points outside: a ball of the closing radius around such a point intersects no sphere, so the hull is that radius
+    // away.
     std::mt19937_64 random(9);
     std::uniform_real_distribution<double> uniform(-13, 13);
     double nearest = INFINITY;

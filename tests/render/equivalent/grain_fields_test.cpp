@@ -59,7 +59,7 @@ Heap lattice(int edge, double smallest, uint32_t types, uint64_t seed)
     return heap;
 }
 
-/// A tile of equal spheres of radius 1 pushed apart, repeated: a block of a bed around the origin.
+/// A repeated tile of equal spheres of radius 1, pushed apart: a block of a bed around the origin.
 Heap bed(double fraction, int cells)
 {
     const auto tile = push_apart(400, fraction, 1, 0.01, 5);
@@ -115,7 +115,7 @@ TEST(GrainFields, TellThePackRateInsideOfABed)
     EXPECT_NEAR(f.voxel(), 2.5, 1e-6);
     expect_conserved(heap, f);
     EXPECT_LT(largest_pack_rate(f), 1);
-    // The mean over a tile's cube inside is the tile's; at single places it scatters.
+    // The mean over a cube of the tile's size inside the bed is that of the tile; values at single points vary.
     const double edge = std::cbrt(400 * 4 * pi / 3 / 0.6);
     double sum = 0, squares = 0;
     const int n = 20;
@@ -186,7 +186,7 @@ TEST(GrainFields, TakeRadiiOfARatioOfAThousand)
     for (int i = 0; i < 100000; ++i) heap.add(uniform(random), uniform(random), uniform(random), 0.001, 1);
     heap.add(2.5, 0, 0, 1, 2);
     expect_conserved(heap, fields(heap));
-    // Voxels for the small ones: the large one is filled from millions of points.
+    // The voxel fits the small spheres: the large sphere is spread from millions of points.
     const GrainFields fine = fields(heap, {.voxel = 0.02});
     expect_conserved(heap, fine);
     EXPECT_NEAR(fine.pack_rate({2.5, 0.3, 0.3}), 1, 0.01);

@@ -1,4 +1,4 @@
-// What walks among the grains of a packing say of it, where the answer is known.
+// Results of walks among the grains of a packing, in cases with a known answer.
 
 #include "base/error.h"
 #include "base/sampler.h"
@@ -63,7 +63,8 @@ std::vector<WalkBatch> walk_medium(double g, const V3d& albedo, uint32_t memory,
 TEST(WalkStatistics, GiveBackAHomogeneousMedium)
 {
     for (const double g : {-0.4, 0.65, 0.85}) {
-        const V3d albedo(0.95, g < 0 ? 0.97 : g < 0.8 ? 0.8 : 0.9, 0.99); // not beyond what packing_decay.h warns of
+        // within the limits that packing_decay.h gives
+        const V3d albedo(0.95, g < 0 ? 0.97 : g < 0.8 ? 0.8 : 0.9, 0.99);
         const uint32_t memory = walk_memory(g);
         const auto batches = walk_medium(g, albedo, memory, 1600 / memory);
         const WalkStatistics statistics(batches);
@@ -130,7 +131,7 @@ TEST(PackingWalk, OfFewGrainsIsThatOfIndependentFlights)
     }
 }
 
-// The mean chord of what is not spheres is 4 times its volume over its surface, whatever the packing.
+// The mean chord of the voids is 4 times their volume over their surface, for any packing of spheres.
 TEST(PackingWalk, MeetsTheVoidChordsOfAnyPacking)
 {
     for (const GrainType& type : {GrainType{"glass", dielectric(1.5), nullptr, glass()}, cubes()}) {
@@ -167,7 +168,7 @@ TEST(PackingWalk, MeetsTheVoidChordsOfManySizes)
     expect_within(walk.void_flight, 4 * (1 - 0.55) * r3 / (3 * 0.55 * r2), "many sizes l_v");
 }
 
-// Light that leaves an opaque grain finds the way free that it came by.
+// Light that leaves an opaque grain finds the path free by which it came.
 TEST(PackingWalk, OfOpaqueGrainsSpreadsLessThanIndependentFlights)
 {
     const GrainType type{"white", lambert(0.9f), nullptr, white()};
@@ -176,14 +177,14 @@ TEST(PackingWalk, OfOpaqueGrainsSpreadsLessThanIndependentFlights)
     const TileBed bed(sphere_tile(0.6, 600), 1, type, 200);
     const PackingWalk walk = walk_packing(bed.world(), bed.tracer(), walk_options(bed, 100000));
     EXPECT_LT(walk.diffusivity.value + 4 * walk.diffusivity.error, 0.8 * mixture.diffusivity());
-    // An independent tracer found 0.39 at f 0.6, to its two digits.
+    // An independent tracer found 0.39 at f 0.6 (two digits).
     EXPECT_LT(std::abs(walk.diffusivity.value - 0.39), 4 * walk.diffusivity.error + 0.005);
 
     const auto medium = continuous_equivalent(mixture, EquivalentForm::decay, &walk);
     const auto lossless = continuous_equivalent(mixture, EquivalentForm::walk, &walk);
     EXPECT_NEAR(lossless.diffusivity, walk.diffusivity.value, 1e-12);
     EXPECT_NEAR(lossless.transport_length, walk.transport_length.value, 1e-12);
-    EXPECT_NEAR(medium.albedo.x, mixture.albedo.x, 1e-6); // what it reflects, by albedo and g, is as of the grains
+    EXPECT_NEAR(medium.albedo.x, mixture.albedo.x, 1e-6); // the albedo, and so the reflectance, is that of the grains
     EXPECT_EQ(medium.g, lossless.g);
     for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(medium.decay[c], walk.decay[0].kappa.value, 1e-6);
@@ -193,8 +194,8 @@ TEST(PackingWalk, OfOpaqueGrainsSpreadsLessThanIndependentFlights)
     EXPECT_THROW(continuous_equivalent(mixture, EquivalentForm::walk), std::invalid_argument);
 }
 
-/// How the light that meets grains falls off with the distance from a plane it starts from, measured between two
-/// distances: by walks of its own, with weights.
+/// The decay rate of the light that hits grains, with the distance from the plane where it starts, measured between two
+/// distances by separate weighted walks.
 Measured fall_off(const TileBed& bed, double near, double far, uint32_t walks)
 {
     constexpr uint32_t batches = 20;
@@ -213,7 +214,7 @@ Measured fall_off(const TileBed& bed, double near, double far, uint32_t walks)
             Place from;
             for (double weight = 1; weight > 0;) {
                 const Hit hit = bed.tracer().intersect(p, d, from, GrainDetail::proxy);
-                if (hit.place.kind != HitKind::grain) break; // left, which takes some hundred radii
+                if (hit.place.kind != HitKind::grain) break; // the walk left the bed, which takes some hundred radii
                 const V3d way = hit.point - start;
                 for (int axis = 0; axis < 3; ++axis) { // planes across each axis
                     const double z = std::abs(way[axis]);
@@ -237,7 +238,8 @@ Measured fall_off(const TileBed& bed, double near, double far, uint32_t walks)
     return measured_ratio(slopes, std::vector<double>(batches, 1));
 }
 
-// What the form is for: neither of the lossless numbers says how light dies away in a dense bed of grains that absorb.
+// The purpose of the form `decay`: the lossless numbers do not give the decay of light in a dense bed of absorbing
+// grains.
 TEST(PackingWalk, DecayIsThatOfLightFromAPlane)
 {
     Material smoky = dielectric(1.5);
@@ -258,7 +260,7 @@ TEST(PackingWalk, DecayIsThatOfLightFromAPlane)
                     c.type.name.c_str(), measured.value, measured.error, kappa.value, kappa.error,
                     continuous_equivalent(mixture, EquivalentForm::formula).decay.x,
                     continuous_equivalent(mixture, EquivalentForm::walk, &walk).decay.x);
-        // Ways of some ten scatterings do not know all of the packing's memory: 1.5 %.
+        // Paths of some ten scatterings do not cover all of the packing's memory: 1.5 %.
         EXPECT_LT(std::abs(kappa.value - measured.value),
                   0.015 * measured.value + 4 * std::hypot(kappa.error, measured.error));
         EXPECT_NEAR(continuous_equivalent(mixture, EquivalentForm::decay, &walk).decay.x, kappa.value, 1e-6);

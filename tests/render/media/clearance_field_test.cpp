@@ -37,7 +37,7 @@ long double distance_to_segment(const Wide& p, const Wide& a, const Wide& b)
     return std::sqrt(q.dot(q));
 }
 
-/// In long double, so that what it is off by is far below what is asked of the field.
+/// In long double, so that its error is far below the accuracy required of the field.
 double distance(const Mesh& mesh, const V3d& place)
 {
     const Wide p(place);
@@ -61,9 +61,9 @@ V3d random_direction(std::mt19937_64& random)
     return V3d(x, y, z).normalized();
 }
 
-/// Compares with true distances at places in a box, most of them from 1e-6 to 0.3 of it away from places on triangles,
-/// their edges and corners. typical: the least share of the distance at 9 of 10 places. from: least distance, by the
-/// box, at which nowhere much is lost.
+/// Compares with true distances at points in a box, most of them 1e-6 to 0.3 of the box away from points on triangles,
+/// edges and corners. typical: the least part of the distance that 9 of 10 bounds must reach. from: distance, as a part
+/// of the box, from which on no bound may lose much.
 void check(const std::vector<Mesh>& meshes, const Imath::Box3d& box, int places, int voxels = 64,
            double typical = 0.995, double from = 1e-6)
 {
@@ -164,7 +164,7 @@ TEST(ClearanceField, IsNeverAboveTheDistanceAndHardlyBelow)
 TEST(ClearanceField, HoldsForNeedlesAndTrianglesWithoutArea)
 {
     const Imath::Box3d box(V3d(-1.5), V3d(1.5));
-    // Where a normal is hardly known 2^-24 of the farthest corner's distance is lost.
+    // Where a normal is inaccurate, 2^-24 of the farthest corner's distance is lost.
     check({needles(40)}, box, 20000, 64, 0.995, 1e-5);
     check({needles(600)}, box, 2000, 64, 0.995, 1e-5);
 }
@@ -234,7 +234,7 @@ TEST(ClearanceField, AnswersManyThreadsAlike)
     std::vector<std::thread> threads;
     for (size_t t = 0; t < found.size(); ++t)
         threads.emplace_back([&, t] {
-            // Not all in the same order, but the first ones at the same time.
+            // Threads query in different orders, but the first queries at the same time.
             for (size_t i = 0; i < places.size(); ++i) {
                 const size_t at = t % 2 ? i : (i * 7 + t * 1000) % places.size();
                 found[t][at] = shared.clearance(places[at]);

@@ -13,7 +13,7 @@ using Ray = TestRay;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int edge = 40;
 
-/// A scene scaled by 2^k gives the same walks, bit for bit; one scaled by 1e-6 or 1e6, the same numbers but for
+/// A scene scaled by 2^k gives bit-identical walks; a scene scaled by 1e-6 or 1e6 gives the same numbers up to
 /// rounding.
 TEST(GridMediumKinds, Scaling)
 {
@@ -49,12 +49,11 @@ TEST(GridMediumKinds, Scaling)
         const std::vector<double> scaled = flights(scale, static_cast<int>(std::lround(std::log2(scale))));
         size_t different = 0;
         for (size_t i = 0; i < one.size(); ++i) different += std::abs(scaled[i] - one[i]) > 1e-5;
-        EXPECT_LE(different, one.size() / 1000) << scale; // a decision may turn over
+        EXPECT_LE(different, one.size() / 1000) << scale; // rounding may change a few decisions
     }
 }
 
-/// A constant chromatic medium: spectral MIS gives 1 - exp(-tau) and exp(-tau) in every channel; with absorption over
-/// many events the albedo of a walk along a line.
+/// A constant chromatic medium: spectral MIS gives 1 - exp(-tau) and exp(-tau) in every channel.
 TEST(GridMediumKinds, ChromaticClosedForms)
 {
     const double h = 0.05;
@@ -105,8 +104,8 @@ TEST(GridMediumKinds, ChromaticClosedForms)
     }
 }
 
-/// A path of up to n events straight on, counted by the albedo: the sum over all orders is exp(-(1 - a) tau) escaped
-/// light per channel.
+/// A straight path with up to n events, each weighted by the albedo a: summed over all orders, exp(-(1 - a) tau) of the
+/// light escapes per channel.
 TEST(GridMediumKinds, ChromaticPathsWithAlbedo)
 {
     GridMediumOptions options;
@@ -174,29 +173,30 @@ TEST(GridMediumKinds, VectorsOfDensity)
     }
 }
 
-/// Tiles of the tree are regions as they are: a large box costs no more than its faces.
+/// A tile of the tree becomes one region: a large box needs memory only for its faces.
 TEST(GridMediumKinds, TilesStaySmall)
 {
     openvdb::initialize();
     auto grid = FloatGrid::create(0);
     grid->fill(openvdb::CoordBBox(Coord(0), Coord(511)), 0.001f);
     const GridMedium medium = make_medium(grid);
-    EXPECT_LT(medium.bytes(), 90u << 20); // 6 (64 + 1)^2 bricks at the faces, of 2.9 kB; in full 0.8 GB
+    // 6 (64 + 1)^2 bricks at the faces, 2.9 kB each; a dense grid would need 0.8 GB
+    EXPECT_LT(medium.bytes(), 90u << 20);
     EXPECT_EQ(medium.bounds(), Imath::Box3d(V3d(-1), V3d(512)));
     expect_depth(medium, {{-50, 200.3, 300.7}, V3d(1, 0.1, 0.2).normalized(), 100, 500}, 0.4, 40000);
-    // Far voxels make no table between them.
+    // Distant voxels need no dense table between them.
     auto far = FloatGrid::create(0);
     for (const int x : {-4000000, 0, 4000000}) far->fill(openvdb::CoordBBox(Coord(x), Coord(x + 7)), 0.05f);
     const GridMedium sparse = make_medium(far);
     EXPECT_LT(sparse.bytes(), 2u << 20);
-    // Cells 0..7 and the ramps beside: 8 voxels' worth of density.
+    // Cells 0..7 and the ramps on both sides: the density of 8 voxels.
     expect_depth(sparse, {{-1000, 3, 3}, {1, 0, 0}}, 0.4, 100000);
     // Along the diagonal the ramps are cubic.
     const V3d d = V3d(1, 1, 1).normalized();
     expect_depth(sparse, {V3d(-4000100.0), d}, 3 * (7 * 0.05 + 2 * 0.05 / 4) * std::sqrt(3.0), 100000);
 }
 
-/// Albedo and g on grids of their own, coarser than the density; beside their faces no background is mixed in.
+/// Albedo and g have their own grids, coarser than the density; near their faces no background is mixed in.
 TEST(GridMediumKinds, AlbedoAndAsymmetryGrids)
 {
     openvdb::initialize();
@@ -226,7 +226,7 @@ TEST(GridMediumKinds, AlbedoAndAsymmetryGrids)
     }
 }
 
-/// A rotated, sheared, mirrored and shifted grid: places are where its transform puts them.
+/// A rotated, sheared, mirrored and shifted grid: values are where its transform puts them.
 TEST(GridMediumKinds, AffineTransforms)
 {
     auto grid = make_grid(20, 1, V3d(0), [](int i, int j, int k) { return 0.01 * i + 0.02 * j + 0.03 * k; });

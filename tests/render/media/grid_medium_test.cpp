@@ -18,7 +18,7 @@ TEST(GridMedium, LinearRamp)
 {
     const double h = 0.05;
     const GridMedium medium = make_medium(make_grid(edge, h, V3d(-1), [](int i, int, int) { return 0.1 * i; }));
-    // Density 0.1 (x + 1) / h inside of the voxels' centres: -1..0.95.
+    // Density 0.1 (x + 1) / h between the outermost voxel centres: -1..0.95.
     const auto density = [&](double x) { return 0.1 * (x + 1) / h; };
     const V3d a(-0.93, -0.7, -0.6), b(0.9, 0.5, 0.8);
     const V3d d = (b - a).normalized();
@@ -28,7 +28,7 @@ TEST(GridMedium, LinearRamp)
     EXPECT_NEAR(medium.largest_sigma_t(), 3.9, 1e-6);
 }
 
-/// 1 + sin(k x), on a grid: between voxels linear in x, so that along x the exact depth is the trapezoid rule's.
+/// 1 + sin(k x) on a grid: linear in x between voxels, so that the trapezoid rule gives the exact depth along x.
 TEST(GridMedium, Sinusoidal)
 {
     const double h = 0.05, k = 2 * pi / 0.7;
@@ -36,7 +36,7 @@ TEST(GridMedium, Sinusoidal)
     const GridMedium medium = make_medium(make_grid(edge, h, V3d(-1), [&](int i, int, int) { return value(i); }));
     double depth = 0;
     for (int i = 0; i < edge; ++i) depth += h * double{static_cast<float>(value(i))};
-    // With the ramps from and to 0 outside of the first and the last voxel.
+    // Includes the ramps from and to 0 outside the first and the last voxel.
     expect_depth(medium, {{-3, 0.1, 0.2}, {1, 0, 0}}, depth, 100000);
     // And the continuous field itself, sampled finely enough: its interpolant is (kh)^2 / 12 lower in amplitude, below
     // the standard error.
@@ -52,7 +52,7 @@ TEST(GridMedium, Sinusoidal)
     expect_depth(make_medium(grid), {{0, hf, hf}, {1, 0, 0}, 0, 1}, 2 - 2 / k * (std::cos(k) - 1), 100000);
 }
 
-/// Checkered voxels, constant each: what a ray crosses is counted exactly.
+/// A checkerboard of constant voxels: the voxels that a ray crosses can be counted exactly.
 TEST(GridMedium, CheckeredNearest)
 {
     const double h = 0.05;
@@ -96,7 +96,7 @@ TEST(GridMedium, AnyRayThroughASparseGrid)
             };
             rays.push_back({draw(), draw().normalized(), 0.1 * sampler.next(), 0.4 + sampler.next()});
         }
-        const double face = -1 + 8 * h; // a brick's, as exactly as doubles have it
+        const double face = -1 + 8 * h; // a brick's face, as exact as a double allows
         rays.push_back({{-2, face, 0.1}, {1, 0, 0}, 0, 4});
         rays.push_back({{0.1, face, 2}, {0, 0, -1}, 0, 4});
         rays.push_back({{face, face, -2}, {0, 0, 1}, 0, 4});
@@ -104,7 +104,7 @@ TEST(GridMedium, AnyRayThroughASparseGrid)
         rays.push_back({{face, face, face}, V3d(-1, 1, -1).normalized(), 0, 4});
         rays.push_back({{face, -0.2, 0.3}, {-1e-300, 1, 1e-320}, 0, 4});
         for (const Ray& ray : rays) {
-            // Where a voxel's face holds the whole ray, a nearest voxel is not defined.
+            // If the ray lies in a voxel's face, its nearest voxel is not defined.
             if (nearest && (ray.d.x == 0 || ray.d.y == 0 || ray.d.z == 0 || std::abs(ray.d.x) == std::abs(ray.d.y)))
                 continue;
             SCOPED_TRACE(testing::Message()
@@ -114,7 +114,7 @@ TEST(GridMedium, AnyRayThroughASparseGrid)
     }
 }
 
-/// The free flights' distribution: chi-square over 40 cells of equal chance, p above 1e-4.
+/// The distribution of free flights: chi-square over 40 cells of equal probability, p above 1e-4.
 TEST(GridMedium, FreeFlights)
 {
     const double h = 0.05;
@@ -155,7 +155,7 @@ TEST(GridMedium, FreeFlights)
     }
 }
 
-/// One voxel a million times denser than the rest: right beside it, grazing it and through it.
+/// One voxel a million times denser than the rest: rays beside it, grazing it and through it.
 TEST(GridMedium, OneDenseVoxel)
 {
     const double h = 0.05;
@@ -165,7 +165,7 @@ TEST(GridMedium, OneDenseVoxel)
     };
     const GridMedium medium = make(1e6);
     const V3d d = V3d(1, 0.02, 0.01).normalized();
-    const double y = -1 + 22.5 * h; // two and a half voxels beside: the same brick, but out of the voxel's reach
+    const double y = -1 + 22.5 * h; // two and a half voxels aside: the same brick, but outside the voxel's influence
     const Ray beside{{-0.9, y, y}, d, 0, 1.5};
     expect_depth(medium, beside, 1.5, 40000);
     // Through the ramp of its neighbours, far from its middle: density 1 + 1e6 (1 - |x|/h) w.
@@ -200,7 +200,7 @@ TEST(GridMedium, FlightsUpACubicRamp)
     EXPECT_LT(std::abs(second.z(1.0 / 3)), 4);
 }
 
-/// Densities from 1e-12 to 1e12, constant and uneven: chances are right and every walk ends.
+/// Densities from 1e-12 to 1e12, constant and uneven: probabilities are right and every walk ends.
 TEST(GridMedium, ExtremeDensities)
 {
     const double h = 0.05;
@@ -233,7 +233,7 @@ TEST(GridMedium, ExtremeDensities)
             if (sigma > 1)
                 EXPECT_EQ(chance.mean(), 1);
             else
-                EXPECT_LE(chance.mean(), 4e-3); // chance below 1e-6 each
+                EXPECT_LE(chance.mean(), 4e-3); // probability below 1e-6 each
             if (even && sigma > 1) {
                 // Mean free path in the constant part: 4 standard errors of the mean of exponentials.
                 Estimate flight;
@@ -283,7 +283,7 @@ TEST(GridMedium, NothingInAnEmptyGrid)
     EXPECT_TRUE(make_medium(FloatGrid::create(0)).bounds().isEmpty());
 }
 
-/// Rays that are not numbers, or go nowhere, end.
+/// Walks end for rays with NaN or infinite values, or without direction.
 TEST(GridMedium, RaysThatAreNone)
 {
     const GridMedium medium = make_medium(make_grid(20, 0.1, V3d(0), [](int i, int, int) { return i % 2 + 0.5; }));
@@ -302,7 +302,7 @@ TEST(GridMedium, RaysThatAreNone)
 
 TEST(GridMedium, WalksAreTheSameWhateverTheyStartFrom)
 {
-    // A ray cut in two has the same transmittance, and its origin far back along the same line too.
+    // A ray cut in two has the same transmittance; so has a ray whose origin is far back on the same line.
     const GridMedium medium = make_medium(
         make_grid(edge, 0.05, V3d(-1), [](int i, int j, int k) { return ((i / 4 + j / 3 + k / 5) % 3) * 0.5; }));
     const V3d d = V3d(1, 0.6, 0.4).normalized(), o(-0.9, -0.5, -0.5);

@@ -52,7 +52,7 @@ void expect_depth(const GridMedium& medium, const TestRay& ray, double depth, ui
         }
         ratio.add(double{medium.transmittance(ray.o, ray.d, ray.t0, ray.t1, sampler).x});
     }
-    // Where the estimate has no scatter at all, only the rounding of floats is left.
+    // An estimate without variance has only the rounding error of floats.
     EXPECT_LT(std::abs(ratio.mean() - truth), 4 * ratio.standard_error() + 2e-7)
         << "transmittance " << ratio.mean() << " of " << truth;
     EXPECT_LT(std::abs(passed / n - truth), 4 * std::sqrt(truth * (1 - truth) / n) + 1e-12)

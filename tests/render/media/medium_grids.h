@@ -1,6 +1,6 @@
 #pragma once
 
-// For tests of media: small grids, and what walks through them must give.
+// For tests of media: small grids, and the expected results of walks through them.
 
 #include "render/media/grid_medium_build.h"
 
@@ -20,11 +20,11 @@ struct TestRay {
     double t0 = 0, t1 = std::numeric_limits<double>::infinity();
 };
 
-/// The optical depth by the midpoint rule over what sigma_t() tells, in n pieces.
+/// The optical depth by the midpoint rule over sigma_t(), with n steps.
 double optical_depth(const GridMedium& medium, const TestRay& ray, double t0, double t1, int n);
 
-/// Estimates by both walks agree with a known optical depth within 4 standard errors, that of the events' frequency
-/// being known.
+/// Expects that the estimates of event() and transmittance() agree with a known optical depth within 4 standard errors;
+/// the standard error of the events' frequency is the exact one.
 void expect_depth(const GridMedium& medium, const TestRay& ray, double depth, uint32_t n, uint64_t seed = 1);
 
 } // namespace scree

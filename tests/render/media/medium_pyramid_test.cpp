@@ -1,4 +1,4 @@
-// Means over cubes, of which shells take the albedo.
+// Means over cubes, from which shells take their medium.
 
 #include "base/sampler.h"
 #include "render/media/medium_pyramid.h"
@@ -9,10 +9,10 @@
 namespace scree {
 namespace {
 
-/// What a medium that is the same all over is in the mean, in balls of every size.
+/// A homogeneous medium has the right means in balls of every size.
 TEST(MediumPyramid, KeepsWhatLittleIsLost)
 {
-    constexpr int n = 200; // more voxels than the first level has cubes
+    constexpr int n = 200; // more voxels than cubes in the first level
     const auto grid = make_grid(n, 2.0 / (n - 1), V3d(-1), [](int, int, int) { return 0.7; });
     for (const double loss : {1e-3, 1e-6, 1e-9}) {
         GridMediumOptions options;
@@ -30,8 +30,8 @@ TEST(MediumPyramid, KeepsWhatLittleIsLost)
     }
 }
 
-/// What halve_until_same() leaves out is what could not be the same, whatever the medium: it finds what asking of each
-/// ball in turn does.
+/// halve_until_same() skips only balls that cannot be homogeneous, whatever the medium: its result is that of testing
+/// each ball in turn.
 TEST(MediumPyramid, FindsWhatEachBallInTurnWould)
 {
     constexpr int n = 48;
@@ -73,7 +73,7 @@ TEST(MediumPyramid, FindsWhatEachBallInTurnWould)
                     if (!fits) truth /= 2;
                 }
                 const bool is_found = pyramid.halve_until_same(place, radius, mean);
-                if (is_found && radius * mean.sigma_t < 1) continue; // it was asked for no smaller one
+                if (is_found && radius * mean.sigma_t < 1) continue; // smaller balls are not searched
                 ASSERT_EQ(is_found, fits) << name << ", scale " << scale << ", " << clear << " around " << place;
                 ++(fits ? found : none);
                 if (!fits) continue;

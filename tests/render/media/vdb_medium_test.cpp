@@ -66,7 +66,7 @@ TEST_F(VdbMedium, ReadsWhatWasWritten)
     EXPECT_EQ(medium.albedo(middle), Color(0.9f, 0.8f, 0.7f));
     EXPECT_FLOAT_EQ(static_cast<float>(medium.g(middle)), 0.6f);
     EXPECT_TRUE(medium.is_achromatic());
-    // Interpolation reaches a voxel farther: -0.5 to 5.
+    // Interpolation reaches one voxel farther: -0.5 to 5.
     EXPECT_EQ(medium.bounds(), Imath::Box3d(space.point(V3d(-0.5)), space.point(V3d(5))));
     EXPECT_EQ(vdb_medium_bounds(path, options), Imath::Box3d(V3d(-0.5), V3d(5)));
 }
@@ -92,11 +92,11 @@ TEST_F(VdbMedium, NamesTheGridsThereAre)
     const auto error = error_of({block("Density", 1.0f), block<openvdb::Vec3SGrid>("vel", openvdb::Vec3s(0))});
     ASSERT_TRUE(error);
     EXPECT_THAT(error->place(), HasSubstr("cloud.vdb"));
-    EXPECT_THAT(error->found(), HasSubstr("no grid 'density' but 'Density' (float), 'vel' (vec3s)"));
+    EXPECT_THAT(error->found(), HasSubstr("no grid 'density', but 'Density' (float), 'vel' (vec3s)"));
     EXPECT_THAT(error->hint(), HasSubstr("did you mean 'Density'?"));
     const auto albedo = error_of({block("density", 1.0f), block("g", 0.1f)}, with("colour"));
     ASSERT_TRUE(albedo);
-    EXPECT_THAT(albedo->expected(), HasSubstr("'colour' of albedo"));
+    EXPECT_THAT(albedo->expected(), HasSubstr("'colour' for \"albedo\""));
 }
 
 TEST_F(VdbMedium, RefusesWhatNoMediumHas)

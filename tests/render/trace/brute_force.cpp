@@ -77,7 +77,7 @@ void BruteForce::add(const Place& place, const std::array<V3d, 3>& c)
     triangles_.push_back({place, c, unit_normal(c), (c[1] - c[0]).cross(c[2] - c[0]).length() / longest});
 }
 
-// A sphere is met where the ray enters it; one that holds the start is not.
+// A sphere is hit where the ray enters it; a sphere that contains the start is not hit.
 void BruteForce::try_sphere(uint32_t i, const V3d& o, const V3d& d, const Place& from, Truth& truth) const
 {
     if (from.kind == HitKind::grain && from.index == i) return;
@@ -88,7 +88,7 @@ void BruteForce::try_sphere(uint32_t i, const V3d& o, const V3d& d, const Place&
     if (nearest < r) truth.offer({HitKind::grain, i, no_triangle}, along - std::sqrt(r * r - nearest * nearest));
 }
 
-// Of a grain's triangles only those that the ray enters (or leaves) through; of surfaces all.
+// Of a grain's triangles only those through which the ray enters (or leaves) count; of surfaces all.
 void BruteForce::try_triangle(const Triangle& triangle, bool entering, const V3d& o, const V3d& d, const Place& from,
                               Truth& truth)
 {

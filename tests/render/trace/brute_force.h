@@ -11,14 +11,14 @@ namespace scree {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double float_margin =
-    0x1p-20; ///< of rays through render coordinates of size 1: a few roundings of 2^-24
+    0x1p-20; ///< error of rays in render coordinates of size 1: a few roundings of 2^-24
 
 V3d random_direction(Sampler& sampler);
-/// In the cube of half an edge `half` around 0.
+/// A random point in the cube of half edge `half` around 0.
 V3d random_point(Sampler& sampler, double half);
 
-/// What brute force knows of one ray: the nearest hit, and whether anything came so close to being another answer that
-/// rounding to float may decide.
+/// The brute-force result for one ray: the nearest hit, and whether another answer is so close that rounding to float
+/// may decide.
 struct Truth {
     Place place;
     double t = infinity, second = infinity;
@@ -36,7 +36,7 @@ struct Truth {
         place = candidate;
     }
     void doubt(double at) { doubtful = std::min(doubtful, at); }
-    /// Call when all are offered.
+    /// Call after the last offer.
     void judge() { close = std::min(doubtful, second) < t + float_margin; }
 };
 
@@ -44,7 +44,7 @@ struct Truth {
 std::array<V3d, 3> grain_triangle(const World& world, uint32_t grain, uint32_t triangle);
 std::array<V3d, 3> surface_triangle(const World& world, uint32_t surface, uint32_t triangle);
 
-/// What a tracer should find, by trying every sphere and every triangle in double.
+/// The expected hits of a tracer, by testing every sphere and every triangle in double.
 class BruteForce {
 public:
     explicit BruteForce(const World& world);
@@ -59,7 +59,7 @@ private:
         Place place;
         std::array<V3d, 3> c;
         V3d normal;
-        double height; ///< the smallest: what one barycentric unit is at least
+        double height; ///< smallest height of the triangle: the least length of one barycentric unit
     };
     void add(const Place& place, const std::array<V3d, 3>& c);
     void try_sphere(uint32_t i, const V3d& o, const V3d& d, const Place& from, Truth& truth) const;

@@ -1,4 +1,4 @@
-// Rays go through closed surfaces of media as often out as in, wherever they start and however near to edges and
+// Rays leave closed surfaces of media as often as they enter them, wherever they start and however near to edges and
 // corners they pass.
 
 #include "render/trace/region_tracer.h"
@@ -22,7 +22,7 @@ std::unique_ptr<TestScene> scene_of(const TriangleMesh& mesh)
     return scene;
 }
 
-/// A ball of 5,120 triangles that lies off the origin.
+/// A ball of 5,120 triangles away from the origin.
 const TestScene& ball_scene()
 {
     static const std::unique_ptr<TestScene> scene = [] {
@@ -39,7 +39,7 @@ std::array<V3d, 3> corners_of(const MediumRegion& region, size_t triangle)
     return {V3d(region.positions[t[0]]), V3d(region.positions[t[1]]), V3d(region.positions[t[2]])};
 }
 
-/// A place on a triangle: at a corner, on an edge, as near to one as `depth`, or anywhere.
+/// A point on a triangle: at a corner, on an edge, as near to one as `depth`, or anywhere.
 V3d place_on(const std::array<V3d, 3>& c, Sampler& sampler, int i, double depth)
 {
     double u = sampler.next(), v = sampler.next();
@@ -50,7 +50,7 @@ V3d place_on(const std::array<V3d, 3>& c, Sampler& sampler, int i, double depth)
     return c[0] + u * (c[1] - c[0]) + v * (c[2] - c[0]);
 }
 
-// A medium of a mean free path of 1e-12 scatters light that near to its faces, and none of it may be lost.
+// A medium with a mean free path of 1e-12 scatters light as near as that to its faces, and none of it may be lost.
 TEST(RegionTracer, ARayFromWithinAlwaysLeaves)
 {
     const RegionTracer& tracer = *ball_scene().tracer().regions();
@@ -76,8 +76,7 @@ TEST(RegionTracer, ARayFromWithinAlwaysLeaves)
     }
 }
 
-// What rounding leaves of a corner is on one side of the ray or on the other, but on the same for all triangles that
-// share it.
+// Rounding may put a corner on either side of the ray, but on the same side for all triangles that share it.
 TEST(RegionTracer, ARayFromOutsideEntersAndLeavesInTurn)
 {
     const RegionTracer& tracer = *ball_scene().tracer().regions();
@@ -89,7 +88,7 @@ TEST(RegionTracer, ARayFromOutsideEntersAndLeavesInTurn)
         const auto c =
             corners_of(ball, static_cast<size_t>(sampler.next() * static_cast<double>(ball.triangles.size())));
         const V3d beside = std::pow(10.0, -3 - 6 * sampler.next()) *
-                           random_direction(sampler); // what only touches a corner may do either
+                           random_direction(sampler); // a ray that only touches a corner may hit or miss
         const V3d o = place_on(c, sampler, i, 1e-7) + beside - 3 * std::pow(10.0, 2 * sampler.next()) * d;
         RegionSet regions = 0, known = 0;
         Crossing crossing;
@@ -102,7 +101,7 @@ TEST(RegionTracer, ARayFromOutsideEntersAndLeavesInTurn)
         }
         ASSERT_EQ(known, 0u) << "from " << o << " along " << d;
     }
-    EXPECT_GT(met, 600000); // most of these rays go through
+    EXPECT_GT(met, 600000); // most of these rays cross the surface
 }
 
 // Through edges, corners and the diagonals of faces, exactly.
@@ -124,7 +123,7 @@ TEST(RegionTracer, RaysAlongTheAxesOfACubeEnterAndLeaveOnce)
                     Crossing first, second;
                     const bool is_on_rim = std::max(std::abs(i), std::abs(j)) == 4;
                     const bool enters = tracer.next(o, d, 0, infinity, nullptr, regions, first);
-                    if (!enters && is_on_rim) continue; // it may pass beside
+                    if (!enters && is_on_rim) continue; // the ray may miss
                     ASSERT_TRUE(enters && first.enters && regions == 0) << o << " along " << d;
                     ASSERT_EQ(tracer.inside(o + 3 * half * d, d), 1u) << o << " along " << d;
                     EXPECT_EQ(tracer.after(0, o, o + 3 * half * d), 1u);
@@ -141,7 +140,7 @@ TEST(RegionTracer, RaysAlongTheAxesOfACubeEnterAndLeaveOnce)
                 }
 }
 
-// What is told of a ray that starts very far away is told where it comes near.
+// The crossing of a ray that starts very far away is decided near the surface.
 TEST(RegionTracer, MeetsTrianglesFromFarAway)
 {
     const RegionTracer& tracer = *ball_scene().tracer().regions();
@@ -159,11 +158,11 @@ TEST(RegionTracer, MeetsTrianglesFromFarAway)
         ASSERT_TRUE(tracer.next((c[0] + c[1] + c[2]) / 3 - away * d, d, 0, infinity, nullptr, regions, crossing))
             << away;
         ASSERT_TRUE(crossing.enters);
-        ASSERT_NEAR(crossing.t, away, 1e-14 * away) << "a face in front of another one is none";
+        ASSERT_NEAR(crossing.t, away, 1e-14 * away) << "the nearest face must be found, and no other in front of it";
     }
 }
 
-// A state that cannot be is mended by what is ahead, as far away as that may be.
+// Impossible regions are corrected by the crossings ahead, however far away these are.
 TEST(RegionTracer, MendsRegions)
 {
     const RegionTracer& tracer = *ball_scene().tracer().regions();

@@ -1,4 +1,4 @@
-// Grains of twelve decades of size in one scene: each is met where it is, from near and from far.
+// Grains over twelve decades of size in one scene: each is hit at its place, from near and from far.
 
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr int least = -9, most = 3;
 
-/// Eight grains a decade, around the middle, apart; in the order of the decades.
+/// Eight separate grains per decade, around the middle; in the order of the decades.
 void add_decades(TestScene& scene, uint32_t type)
 {
     for (int decade = least; decade <= most; ++decade) {

@@ -1,4 +1,4 @@
-// What a ray starts on is never met again, closed meshes hold tight, and lights are where they are.
+// A ray never hits the primitive on which it starts, closed meshes have no leaks, and lights are hit at their place.
 
 #include "render/embree/triangle.h"
 #include "tests/builders/scenes.h"
@@ -55,8 +55,8 @@ V3d point_of(const std::array<V3d, 3>& c, Sampler& sampler, int i)
     return c[0] + u * (c[1] - c[0]) + v * (c[2] - c[0]);
 }
 
-// From a face of a convex solid outwards there is nothing of the solid, also from its edges and corners; far from the
-// origin, where a float is coarse, and for tiny ones.
+// A ray outwards from a face of a convex solid never hits the solid, also from its edges and corners; far from the
+// origin, where a float is coarse, and for tiny solids.
 TEST(TracerStart, LeavingAConvexMeshGrainNeverMeetsItAgain)
 {
     TestScene scene;
@@ -86,8 +86,8 @@ TEST(TracerStart, LeavingAConvexMeshGrainNeverMeetsItAgain)
     EXPECT_EQ(wrong, 0);
 }
 
-// Inwards from a face, an edge or a corner: the ray goes on inside, never through the face it starts on, never farther
-// than the solid is wide, and is hardly ever lost.
+// A ray inwards from a face, an edge or a corner: it goes on inside, never through the face on which it starts, never
+// farther than the solid is wide, and is hardly ever lost.
 TEST(TracerStart, RaysIntoAConvexMeshGrainComeOut)
 {
     TestScene scene;
@@ -157,7 +157,7 @@ TEST(TracerStart, LeavingASurfaceNeverMeetsItAgain)
         const auto& t = surface.triangles[triangle];
         const std::array<V3d, 3> corners{V3d(surface.positions[t[0]]), V3d(surface.positions[t[1]]),
                                          V3d(surface.positions[t[2]])};
-        const V3d n = unit_normal(corners) * (index == 2 && i % 2 ? -1 : 1); // the plane from both sides
+        const V3d n = unit_normal(corners) * (index == 2 && i % 2 ? -1 : 1); // rays start on both sides of the plane
         const V3d o = point_of(corners, sampler, i), d = leaving_direction(sampler, n, i);
         const Place from{HitKind::surface, index, triangle};
         const Hit hit = scene.tracer().intersect(o, d, from);
@@ -208,7 +208,7 @@ TEST(TracerWatertight, RaysAtEdgesAndCornersDoNotSlipThrough)
     EXPECT_EQ(through_surface, 0);
 }
 
-// A chain of refractions and reflections through one grain: a leak would show as a ray that is lost inside.
+// A chain of refractions and reflections in one grain: a leak would show as a ray lost inside.
 TEST(TracerWatertight, LongWalksInsideAreNotLost)
 {
     TestScene scene;

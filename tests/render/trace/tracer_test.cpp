@@ -1,7 +1,7 @@
-// The tracer against brute force in double: every sphere and every triangle tried, one by one.
+// The tracer against brute force in double, which tests every sphere and every triangle.
 //
-// Embree proposes in float, so what passes an edge or a silhouette within its rounding may go either way; such rays are
-// told by the margin that brute force keeps, and must be rare. Everything else must agree.
+// Embree proposes in float, so a ray within rounding of an edge or a silhouette may hit or miss. Brute force recognises
+// such rays by a margin; they must be rare. All other rays must agree.
 
 #include "render/embree/triangle.h"
 #include "tests/builders/scenes.h"
@@ -41,7 +41,7 @@ struct Comparison {
         if (hit.place.kind == HitKind::none) return;
         worst = std::max(worst, std::abs(hit.t - truth.t));
         const double slack =
-            tolerance / std::max(1e-4, std::abs(hit.normal.dot(d))); // a grazed plane is met less precisely
+            tolerance / std::max(1e-4, std::abs(hit.normal.dot(d))); // a hit at grazing angle is less precise
         const bool right = std::abs(hit.t - truth.t) <= slack && (hit.point - (o + truth.t * d)).length() <= slack &&
                            std::abs(hit.normal.length() - 1) < 1e-12;
         V3d normal = hit.normal;
@@ -67,7 +67,7 @@ struct Comparison {
     }
 };
 
-/// 300 overlapping spheres, radii 0.002 to 0.5 evenly in their logarithm.
+/// 300 overlapping spheres with radii from 0.002 to 0.5, uniform in the logarithm.
 void add_spheres(TestScene& scene, uint32_t type, int count = 300)
 {
     Sampler sampler(77, 0, 0, 0);
@@ -77,7 +77,7 @@ void add_spheres(TestScene& scene, uint32_t type, int count = 300)
     }
 }
 
-/// 120 icosahedra, cubes and bent plates (not convex), overlapping far.
+/// 120 icosahedra, cubes and bent plates (not convex), which overlap strongly.
 void add_meshes(TestScene& scene, const Material& material)
 {
     // An L: a cube with a corner cut out, as a prism.
@@ -137,7 +137,7 @@ protected:
         scene_.build();
         truth_ = std::make_unique<BruteForce>(scene_.world());
     }
-    /// A point among the things, or some way outside; and a direction, often towards a grain.
+    /// A point among the objects, or some distance outside; and a direction, often towards a grain.
     void random_ray(Sampler& sampler, V3d& o, V3d& d) const
     {
         o = random_point(sampler, sampler.next() < 0.7 ? 0.5 : 1.5);
@@ -151,7 +151,7 @@ protected:
     const BruteForce& truth() const { return *truth_; }
     const World& world() const { return scene_.world(); }
     const Tracer& tracer() const { return scene_.tracer(); }
-    /// Spheres are decided in double; of a mesh's hit Embree's float remains.
+    /// Spheres are decided in double; hits of meshes have Embree's float precision.
     double tolerance() const { return GetParam() == Kind::spheres ? 1e-9 : 4 * float_margin; }
     int rays() const { return GetParam() == Kind::spheres ? 40000 : 6000; }
 
@@ -185,7 +185,7 @@ TEST_P(TracerAgainstBruteForce, RaysFromFarAway)
             target *= 0.5;
             const V3d o = target - distance * d;
             const V3d exact = (target - o).normalized();
-            // The truth is told from a point near by, reached in double.
+            // The expected hit is computed from a nearby point, reached in double.
             const double skip = distance - 5;
             Truth expected = truth().outside(o + skip * exact, exact, {});
             expected.t += skip;
@@ -206,7 +206,7 @@ TEST_P(TracerAgainstBruteForce, RaysThatLeaveWhatTheyMet)
         const Hit hit = tracer().intersect(o, d, {});
         if (hit.place.kind == HitKind::none) continue;
         V3d out = random_direction(sampler);
-        // A face turned towards the ray: outwards is against d. Grazing directions too.
+        // A face turned towards the ray: its outward normal is against d. Grazing directions too.
         const V3d facing = hit.normal * (hit.normal.dot(d) < 0 ? 1 : -1);
         if (i % 4 == 0) out = (out - out.dot(facing) * facing + 1e-4 * sampler.next() * facing).normalized();
         if (out.dot(facing) < 0) out = -out;
@@ -235,7 +235,7 @@ TEST_P(TracerAgainstBruteForce, RaysInsideGrains)
         const Truth expected = truth().inside(grain, hit.point, in, hit.place);
         lost += way_out.place.kind == HitKind::none && !expected.close;
         comparison.check(world(), way_out, expected, hit.point, in, tolerance());
-        // And on from there, still inside, as after total reflection.
+        // The ray goes on from there, still inside, as after total reflection.
         if (way_out.place.kind != HitKind::grain) continue;
         V3d back = random_direction(sampler);
         if (back.dot(way_out.normal) > 0) back = -back;
@@ -243,7 +243,8 @@ TEST_P(TracerAgainstBruteForce, RaysInsideGrains)
                          truth().inside(grain, way_out.point, back, way_out.place), way_out.point, back, tolerance());
     }
     EXPECT_EQ(lost, 0);
-    comparison.expect_good("inside", 0.25, 0.5); // a quarter of the rays grazes: many of those are close
+    // a quarter of the rays is grazing, and many of those are near a boundary
+    comparison.expect_good("inside", 0.25, 0.5);
 }
 
 TEST_P(TracerAgainstBruteForce, OcclusionIsConsistentWithIntersection)
