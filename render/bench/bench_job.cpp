@@ -11,7 +11,7 @@ namespace scree {
 
 namespace {
 
-/// The places of comma-separated names in a list.
+/// The positions in `names` of the comma-separated names in `text`.
 std::vector<size_t> places_of(const std::string& text, const std::vector<std::string>& names, const std::string& option)
 {
     std::vector<size_t> places;
@@ -21,13 +21,13 @@ std::vector<size_t> places_of(const std::string& text, const std::vector<std::st
         if (it == names.end())
             throw InputError(
                 option, "'" + word + "'",
-                fmt::format("names of {}, separated by commas{}", fmt::join(names, ", "), did_you_mean(word, names)));
+                fmt::format("names from {}, separated by commas{}", fmt::join(names, ", "), did_you_mean(word, names)));
         const auto place = static_cast<size_t>(it - names.begin());
         if (std::ranges::find(places, place) != places.end())
             throw InputError(option, "'" + word + "' twice", "every name once");
         places.push_back(place);
     }
-    if (places.empty()) throw InputError(option, "nothing", fmt::format("names of {}", fmt::join(names, ", ")));
+    if (places.empty()) throw InputError(option, "nothing", fmt::format("names from {}", fmt::join(names, ", ")));
     return places;
 }
 
@@ -51,7 +51,7 @@ std::vector<BenchMethod> parse_methods(const std::string& integrators, const std
         }
     }
     if (!levels.empty() && !has_auto)
-        throw InputError("--accuracy", accuracies, "auto among the integrators: no other has an accuracy",
+        throw InputError("--accuracy", accuracies, "auto among the integrators: the others have no accuracy",
                          "add auto to --integrators, or leave --accuracy out");
     return methods;
 }

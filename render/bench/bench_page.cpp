@@ -53,9 +53,9 @@ std::string cost_section(const BenchResult& result)
     }
     return page_section(
         "Cost",
-        fmt::format("Rates are a second of processor time. Memory is the peak of a method's set-up above what there "
-                    "was before; the program's own peak was {}. "
-                    "Read, precompute and build are by the clock. What a cache holds already is read and not computed.",
+        fmt::format("Rates are per second of processor time. Memory is the peak of a method's set-up minus the memory "
+                    "used before it; the peak of the whole program was {}. "
+                    "Read, precompute and build are wall-clock times. Data in a cache are read, not computed again.",
                     bytes_words(result.peak_memory)),
         html_table({"method", "integrator", "read", "precompute", "build", "set up (processors)", "render (clock)",
                     "render (processors)", "memory", "paths/s", "rays/s", "events/s", "shells/s"},
@@ -73,16 +73,16 @@ std::string picture_section(const BenchResult& result)
                 figure(result, shown(m.picture), fmt::format("{}: {} samples a pixel", m.name, m.samples));
         html += figure(result, shown_flip(m.flip),
                        fmt::format("{}: FLIP, mean {}", m.name, flip_words(result, mean_flip(m.flip))));
-        html += figure(result, shown_bias(m.picture, reference),
-                       fmt::format("{}: difference over its standard error", m.name)) +
-                "</div>\n";
+        html +=
+            figure(result, shown_bias(m.picture, reference), fmt::format("{}: difference in standard errors", m.name)) +
+            "</div>\n";
     }
     return page_section("Pictures",
-                        fmt::format("FLIP: from black (no difference that one would see when flipping between them) to "
-                                    "pale yellow (1); that of the two halves of the reference is {:.3f}. "
+                        fmt::format("FLIP: from black (no visible difference when flipping between the pictures) to "
+                                    "pale yellow (1); its mean between the two halves of the reference is {:.3f}. "
                                     "Differences: blue where the picture is darker than the reference, red where it is "
-                                    "brighter, in squares of {} pixels, full colour at {} standard errors; "
-                                    "without bias they are pale, without order.",
+                                    "brighter, in squares of {} pixels a side, full colour at {} standard errors; "
+                                    "without bias the map is pale and has no pattern.",
                                     result.reference_flip, bias_square, bias_range),
                         html);
 }
