@@ -34,7 +34,7 @@ struct MethodResult {
     HalfPictures picture;
     std::vector<double> flip; ///< against the reference
 
-    /// Processor seconds of rendering, without set-up, until the relative variance of the picture is 1.
+    /// Processor seconds of rendering, without set-up, until the relative variance of the picture is 1 (TTUV).
     double time_to_unit_variance() const { return estimate.noise.value * time.processor; }
 };
 

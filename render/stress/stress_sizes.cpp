@@ -99,8 +99,7 @@ void add_size_cases(StressRun& run)
 {
     run.begin("sizes",
               "52 grains of radius 1e-9 to 1e3 in one scene: a near view of one decade, compared with the same view of "
-              "another "
-              "in the mean",
+              "another in the mean",
               "noise");
     for (const int decade : {-8, -5, -2, 1}) {
         run.add(fmt::format("radius 1e{} like radius 1, ept", decade),
