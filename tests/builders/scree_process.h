@@ -15,8 +15,8 @@ struct ProgramRun {
 /// The path of the built `scree`.
 std::string scree_program();
 
-/// Runs `scree` with these arguments; when its error output first contains `signal_at`, waits `signal_after` seconds and
-/// sends SIGINT.
+/// Runs `scree` with these arguments; when its error output first contains `signal_at`, waits `signal_after` seconds
+/// and sends SIGINT.
 ProgramRun run_scree(const std::vector<std::string>& arguments, const std::string& signal_at = "",
                      double signal_after = 0, const std::string& program = scree_program());
 
