@@ -1,8 +1,8 @@
 // Makes the mesh of a sandcastle from a level set: make_castle OUT.off [VOXEL]
 //
 // Lengths in metres, z up, the ground at z = 0. The castle stands on a mound: walls with battlements, a tower at each
-// corner, a keep and a gate. The solid is told by a signed distance (near the surface) that unions and cuts combine by
-// min and max.
+// corner, a keep and a gate. The solid is given by a signed distance (near the surface); unions and cuts combine
+// distances by min and max.
 
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/SignedFloodFill.h>
@@ -59,7 +59,7 @@ double tower(const Vec3d& p, double x, double y, double radius, double top)
 double castle(const Vec3d& p)
 {
     const double a = 0.27, wall = 0.045, top = 0.20;
-    // A low mound that runs out to the ground.
+    // A low mound that flattens out to the ground.
     const double d0 = std::hypot(p.x(), p.y());
     double mound = (p.z() - 0.055 * std::exp(-std::pow(d0 / 0.46, 6)) - 0.03 * (1 - d0 * d0 / 0.36)) * 0.8;
     mound = std::max({mound, -p.z(), d0 - 0.60});
@@ -100,7 +100,7 @@ int main(int argc, char** argv)
     for (int z = -4; z <= height; ++z)
         for (int y = -side; y <= side; ++y)
             for (int x = -side; x <= side; ++x) {
-                // Half a voxel off the planes that the shape is made of.
+                // The samples are about half a voxel off the planes of the shape.
                 const Vec3d p = voxel * Vec3d(x + 0.37, y + 0.41, z + 0.43);
                 const double d = castle(p);
                 if (std::abs(d) < band) accessor.setValue({x, y, z}, static_cast<float>(d));

@@ -28,7 +28,7 @@ struct Arguments {
     std::string integrators = "auto,ept,ppt,vpt,stf", accuracy;
     BenchJob job;
     bool suite = false;
-    std::filesystem::path suite_file; ///< empty: the usual one
+    std::filesystem::path suite_file; ///< empty: the default one
     std::optional<double> scale; ///< of the suite's times
     std::filesystem::path readme;
 };
@@ -47,16 +47,16 @@ void take_over(Arguments& a)
     if (job.folder.empty())
         throw InputError("--output", "nothing", "a folder for the page, bench.json and the reference");
     if (a.scale)
-        throw InputError("--suite-scale", "one scene", "--suite, whose times it scales",
+        throw InputError("--suite-scale", "one scene", "--suite: it scales the times of a suite",
                          "the times of one scene are --time and --reference-time");
-    if (!a.readme.empty()) throw InputError("--readme", "one scene", "--suite, whose numbers go there");
+    if (!a.readme.empty()) throw InputError("--readme", "one scene", "--suite: the file receives the table of a suite");
     job.methods = parse_methods(a.integrators, a.accuracy);
     job.title = job.scene.scene.stem().string();
     if (job.title == "scene" && job.scene.scene.has_parent_path())
         job.title = std::filesystem::absolute(job.scene.scene).parent_path().filename().string();
 }
 
-/// What brings the same numbers again.
+/// The command that repeats the run.
 std::string suite_command(const Arguments& a, const std::filesystem::path& file)
 {
     std::string text = "scree bench --suite=" + file.lexically_proximate(std::filesystem::current_path()).string();
@@ -92,7 +92,7 @@ int run(const Arguments& arguments)
 {
     const BenchJob& job = arguments.job;
     ConsoleProgress console(job.quiet);
-    // One bar for the whole: what single slices report is left out.
+    // One progress bar for all the work: the reports of single slices are left out.
     Progress progress([&](const std::string& stage, double fraction) {
         if (stage != "rendering") console.progress().update(stage, fraction);
     });
@@ -105,9 +105,9 @@ int run(const Arguments& arguments)
     } catch (const Cancelled&) {
         console.finish();
         const std::filesystem::path kept = job.folder / (arguments.suite ? "details" : "reference.exr");
-        const char* what = arguments.suite ? "finished scenes and references, to be gone on with, are in"
-                                           : "to be gone on with, there is";
-        fmt::print(stderr, "scree: interrupted; pages and numbers are as they were{}\n",
+        const char* what = arguments.suite ? "finished scenes, and references that the next run continues, are in"
+                                           : "the next run continues the reference";
+        fmt::print(stderr, "scree: interrupted; pages and numbers are unchanged{}\n",
                    std::filesystem::exists(kept) ? fmt::format("; {} {}", what, kept.string()) : "");
         return interrupted_status;
     }
@@ -121,16 +121,15 @@ void add_bench_command(CLI::App& app)
     auto arguments = std::make_shared<Arguments>();
     Arguments& a = *arguments;
     BenchJob& job = a.job;
-    CLI::App* command =
-        app.add_subcommand("bench", "Hold the ways to render a scene against each other: time against error");
+    CLI::App* command = app.add_subcommand("bench", "Compare the ways to render a scene: error against time");
     command->add_option("scene", job.scene.scene, "Scene file (JSON)");
     command->add_option("-o,--output", job.folder,
                         "Folder for the page, bench.json and the reference (with --suite: bench)");
     command->add_option("--integrators", a.integrators,
-                        "Ways to render, separated by commas: of auto, ept, ppt, vpt, stf (default: all)");
+                        "Ways to render, separated by commas: any of auto, ept, ppt, vpt, stf (default: all)");
     command->add_option("--accuracy", a.accuracy,
-                        "With auto: how far its approximations may go: of reference, high, standard, draft; several "
-                        "make several methods");
+                        "With auto: how far its approximations may go: any of reference, high, standard, draft, "
+                        "separated by commas; each makes its own method");
     command
         ->add_option("--time", job.seconds,
                      "Seconds of rendering for each method, on a machine that does nothing else (default 20)")
@@ -138,10 +137,10 @@ void add_bench_command(CLI::App& app)
     command->add_option("--seeds", job.seeds, "Independent pictures of each method (default 4)")
         ->check(CLI::Range(2, 1024));
     auto* const file =
-        command->add_option("--reference", job.reference, "Picture (EXR) to compare with, in place of rendering one");
+        command->add_option("--reference", job.reference, "Picture (EXR) to compare with, instead of rendering one");
     command
         ->add_option("--reference-time", job.reference_seconds,
-                     "Seconds of rendering for the reference, by ept (default 60); one in the folder is gone on with")
+                     "Seconds of rendering for the reference, by ept (default 60); continues one in the folder")
         ->check(CLI::Range(1e-3, 1e7))
         ->excludes(file);
     const auto size = std::ranges::find(scene_switches(), "--size", &SceneSwitch::flag);
@@ -154,12 +153,12 @@ void add_bench_command(CLI::App& app)
         command
             ->add_option(
                 "--suite", a.suite_file,
-                "Run a list of scenes, of this JSON file (default: examples/bench/suite.json), and print one screen")
+                "Run all scenes listed in this JSON file (default: examples/bench/suite.json) and print one table")
             ->expected(0, 1);
     command->add_option("--suite-scale", a.scale, "Factor of all times of the suite")->check(CLI::Range(1e-4, 1e4));
     command->add_option(
         "--readme", a.readme,
-        "With --suite: put the numbers into this file too, between <!-- scree bench --> and <!-- /scree bench -->");
+        "With --suite: also put the table into this file, between <!-- scree bench --> and <!-- /scree bench -->");
     command->add_flag("-q,--quiet", job.quiet, "No progress");
     for (const char* name : {"--integrators", "--accuracy", "--time", "--seeds", "--reference", "--reference-time",
                              "--size", "--frame", "-D"})

@@ -37,7 +37,7 @@ void run(InfoOptions options)
     const ParticleReadOptions reading = parse_radius_options(options.radii);
     for (const std::string& file : options.files) {
         const nlohmann::json description = describe(file, options, reading);
-        // One line an object, so that several files make a stream that line-wise tools read.
+        // Each object takes one line, so that line-based tools can read the output for several files.
         if (options.as_json)
             fmt::print("{}\n", description.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
         else
@@ -50,15 +50,15 @@ void run(InfoOptions options)
 void add_info_command(CLI::App& app)
 {
     auto options = std::make_shared<InfoOptions>();
-    CLI::App* command = app.add_subcommand("info", "What a particle dump, a file of points or a mesh holds");
+    CLI::App* command = app.add_subcommand("info", "Describe a particle dump, a file of points or a mesh");
     command
         ->add_option(
             "FILE", options->files,
             "Dumps (also patterns: 'pour.*.dump.gz', pour.%04d.dump), .vdb points, and meshes (.obj .ply .stl .off)")
         ->required();
-    command->add_flag("--json", options->as_json, "One JSON object a file, each on a line");
+    command->add_flag("--json", options->as_json, "One JSON object for each file, on a line of its own");
     command->add_option("--frame", options->frame, "The frame to measure, from 0")->capture_default_str();
-    command->add_option("--radius", options->radii, "Radius where the dump has none: R for all, or TYPE=R ...")
+    command->add_option("--radius", options->radii, "Radius if the dump has none: R for all grains, or TYPE=R ...")
         ->expected(1)
         ->take_all()
         ->allow_extra_args(false);

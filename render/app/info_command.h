@@ -6,7 +6,7 @@ class App;
 
 namespace scree {
 
-/// Adds `scree info FILE... [--json] [--frame N] [--radius R|TYPE=R ...]`: what a dump or a mesh holds.
+/// Adds `scree info FILE... [--json] [--frame N] [--radius R|TYPE=R ...]`: describes dumps, points and meshes.
 ///
 /// When parsed, it prints to standard output; it throws InputError out of the parse.
 void add_info_command(CLI::App& app);

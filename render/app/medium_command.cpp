@@ -16,7 +16,7 @@ void add_medium_option(CLI::App& app)
     CLI::App* info = app.get_subcommand("info");
     auto scenes = std::make_shared<std::vector<std::string>>();
     CLI::Option* option = info->add_option(
-        "--medium", *scenes, "Scenes: what their media are, and the medium that their grains are from afar");
+        "--medium", *scenes, "Scenes: describe their media, and the medium that represents their grains from afar");
     CLI::Option* files = info->get_option("FILE");
     files->required(false);
     info->parse_complete_callback([=] { // before the files, if there are any, are described

@@ -96,7 +96,7 @@ std::string text_of_medium(const json& medium, const std::string& indent)
 
 nlohmann::json describe_media(const SceneDescription& scene, size_t frame, const Progress& progress)
 {
-    SceneDescription described = scene; // the grains as proxies alone, and no medium in their place yet
+    SceneDescription described = scene; // with all grains as proxies, and no medium that replaces them yet
     described.integrator.kind = IntegratorKind::ppt;
     described.integrator.explicit_grains = 0;
     described.integrator.grain_depth.reset();
@@ -139,17 +139,17 @@ std::string text_of_media(const nlohmann::json& description)
                                          {"mean_radius", "mean radius"},
                                          {"volume_weighted_radius", "mean radius by volume"},
                                          {"void_flight", "mean chord of the voids"},
-                                         {"flight", "mean way between grains"},
+                                         {"flight", "mean path to next scattering"},
                                          {"grain_albedo", "albedo of a grain"},
                                          {"grain_g", "mean cosine of a grain"}}) {
             text += fmt::format("    {:<28} {}\n", label, number(grains[key]));
         }
         const json& walk = grains["walk"];
         if (walk["pack_rate"] != grains["pack_rate"])
-            text += fmt::format("    {:<28} {}\n", "pack rate walked in",
-                                number(walk["pack_rate"])); // and of all above that depends on it
-        for (const auto& [key, label] : {std::pair{"transport_length", "transport length, by walk"},
-                                         {"diffusivity", "diffusivity a scattering"}}) {
+            text += fmt::format("    {:<28} {}\n", "pack rate of the walk",
+                                number(walk["pack_rate"])); // values above that depend on a pack rate use this one
+        for (const auto& [key, label] : {std::pair{"transport_length", "transport length (walk)"},
+                                         {"diffusivity", "diffusivity per scattering"}}) {
             text += fmt::format("    {:<28} {:.6g} +- {:.2g}\n", label, walk[key]["value"].get<double>(),
                                 walk[key]["standard_error"].get<double>());
         }

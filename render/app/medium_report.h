@@ -9,13 +9,13 @@
 
 namespace scree {
 
-/// What the media of a scene are, the medium that stands for its grains included; lengths in the unit of the scene.
-/// frame: of the grains.
+/// The properties of the media of a scene and of the medium that represents its grains; lengths in the unit of the
+/// scene. frame: of the grains.
 ///
 /// Throws InputError, Cancelled.
 nlohmann::json describe_media(const SceneDescription& scene, size_t frame, const Progress& progress);
 
-/// The same for people.
+/// The same as text for people.
 std::string text_of_media(const nlohmann::json& description);
 
 } // namespace scree

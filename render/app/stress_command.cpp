@@ -40,7 +40,7 @@ void write_json(const std::string& path, const StressReport& report)
 
 int run(const Arguments& arguments, bool quiet)
 {
-    if (!arguments.json.empty()) AtomicFile(arguments.json); // can be written, before the work
+    if (!arguments.json.empty()) AtomicFile(arguments.json); // throws before the work if it cannot be written
     ConsoleProgress console(quiet);
     const InterruptGuard guard(console.progress());
     StressReport report;
@@ -62,12 +62,15 @@ void add_stress_option(CLI::App& bench)
     auto arguments = std::make_shared<Arguments>();
     Arguments& a = *arguments;
     CLI::Option* stress = bench.add_flag("--stress", a.wanted,
-                                         "Test the numbers to their limits, on scenes of its own: scale, place, turn, "
+                                         "Stress-test the numerics with built-in scenes: scale, place, turn, "
                                          "sizes, materials, media, packings, long paths");
-    bench.add_flag("--quick", a.options.quick, "With --stress: a part of the cases, in under a minute")->needs(stress);
-    bench.add_option("--only", a.options.only, "With --stress: cases with this text in their name or their family's")
+    bench.add_flag("--quick", a.options.quick, "With --stress: only some of the cases, in under a minute")
         ->needs(stress);
-    bench.add_option("--stress-json", a.json, "With --stress: write what was found to this file too")->needs(stress);
+    bench
+        .add_option("--only", a.options.only,
+                    "With --stress: only cases with this text in their own or their family's name")
+        ->needs(stress);
+    bench.add_option("--stress-json", a.json, "With --stress: also write the results to this file")->needs(stress);
     bench.parse_complete_callback([arguments, app = &bench] {
         if (!arguments->wanted) return;
         const CLI::Option* quiet = app->get_option_no_throw("--quiet");

@@ -58,7 +58,7 @@ std::vector<BenchMethod> parse_methods(const std::string& integrators, const std
         for (const Accuracy level : levels) methods.push_back(bench_method(kind, level));
     }
     if (!levels.empty() && !has_auto)
-        throw InputError("--accuracy", accuracies, "auto among the integrators: no other has an accuracy",
+        throw InputError("--accuracy", accuracies, "auto among the integrators: the others have no accuracy",
                          "add auto to --integrators, or leave --accuracy out");
     return methods;
 }

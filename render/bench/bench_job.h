@@ -9,7 +9,7 @@
 
 namespace scree {
 
-/// A way to render a scene that is held against others.
+/// One of the ways to render a scene that a bench compares.
 struct BenchMethod {
     std::string name; ///< e.g. "ppt" or "auto draft"
     std::vector<SceneOverride> switches; ///< of the scene's; none: as the scene has it
@@ -21,10 +21,10 @@ BenchMethod bench_method(IntegratorKind kind, std::optional<Accuracy> accuracy =
 /// What `scree bench` was asked to do with one scene.
 struct BenchJob {
     std::string title; ///< of the page
-    RenderJob scene; ///< file, size, replaced values, seed, threads; what methods do not set
+    RenderJob scene; ///< file, size, replaced values, seed, threads: all that methods do not set
     size_t frame = 0;
     std::vector<BenchMethod> methods;
-    double seconds = 20; ///< of each method, if all threads had a processor of their own
+    double seconds = 20; ///< rendering time of each method, if every thread has a processor of its own
     size_t seeds = 4; ///< independent pictures of each method, at least 2
     std::filesystem::path reference; ///< a picture to compare with; empty: one is rendered
     double reference_seconds = 60; ///< as `seconds`, of the reference
@@ -33,11 +33,11 @@ struct BenchJob {
     bool quiet = false;
 };
 
-/// Methods by the names of integrators and of accuracies, comma-separated: auto takes each accuracy, the others have
-/// none. Throws InputError that names the option.
+/// Makes methods from comma-separated names of integrators and accuracies: auto is combined with each accuracy, the
+/// others have none. Throws an InputError that names the option.
 std::vector<BenchMethod> parse_methods(const std::string& integrators, const std::string& accuracies);
 
-/// The job of `scree render` that a method is.
+/// The job of `scree render` that renders the scene with this method.
 RenderJob render_job_of(const BenchJob& job, const BenchMethod& method);
 
 } // namespace scree

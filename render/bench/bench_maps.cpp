@@ -70,7 +70,7 @@ std::vector<float> shown_bias(const HalfPictures& picture, const HalfPictures& r
                     pixels.push_back(static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x));
             for (const size_t p : pixels) {
                 difference += channel_sum(picture.whole(p) - reference.whole(p));
-                // Channels of one sample go together: their deviations add, and not their variances.
+                // The channels of one sample are correlated: their standard deviations add, not their variances.
                 for (const V3d& v : {picture.variance[p], reference.variance[p]}) {
                     const double deviation = std::sqrt(v.x) + std::sqrt(v.y) + std::sqrt(v.z);
                     variance += deviation * deviation;

@@ -8,22 +8,24 @@
 
 namespace scree {
 
-/// A picture as flip_difference takes it; radiance: in place of the whole.
+/// A picture in the form that flip_difference takes. radiance: replaces the mean of the picture's halves.
 ScreenPicture screen_picture(const HalfPictures& picture);
 ScreenPicture screen_picture(const HalfPictures& picture, const std::vector<V3d>& radiance);
 
-/// Pictures to look at: 3 values a pixel, 0 to 1, as the screen shows them, rows from the top.
+/// A picture for the screen: 3 sRGB values (0 to 1) a pixel, rows from the top. The next two have the same format.
 std::vector<float> shown(const HalfPictures& picture);
-/// Differences 0 to 1 from black to pale yellow.
+/// A FLIP map for the screen: from black (0) to pale yellow (1).
 std::vector<float> shown_flip(const std::vector<double>& map);
-/// Where a picture is darker (blue) or brighter (red) than the reference, in standard errors of the difference, in
-/// squares of bias_square pixels; white where there is none, full colour at bias_range. Empty where the noise of one of
-/// them is not known.
+/// Shows where a picture is darker (blue) or brighter (red) than the reference, in squares of bias_square pixels a
+/// side.
+///
+/// White: no difference; full colour: bias_range standard errors of the difference. Empty if the noise of either
+/// picture is not known.
 std::vector<float> shown_bias(const HalfPictures& picture, const HalfPictures& reference);
 inline constexpr int bias_square = 4;
 inline constexpr double bias_range = 5;
 
-/// A picture inside a page: the address of a PNG that stands in the address itself (RFC 2397).
+/// A picture as a data URL: a PNG embedded in the page (RFC 2397).
 std::string png_address(int width, int height, const std::vector<float>& rgb);
 
 } // namespace scree

@@ -16,7 +16,8 @@ body { font: 15px/1.5 system-ui, "Segoe UI", Roboto, sans-serif; color: #1d2733;
 main { max-width: 1280px; margin: 0 auto; padding: 28px 20px 60px; }
 h1 { font-size: 26px; margin: 0 0 2px; } h2 { font-size: 18px; margin: 0 0 6px; }
 .below { color: #5a6775; margin: 0 0 18px; overflow-wrap: anywhere; }
-section { background: #fff; border: 1px solid #dde3e9; border-radius: 8px; padding: 18px 20px; margin: 0 0 16px; overflow-x: auto; }
+section { background: #fff; border: 1px solid #dde3e9; border-radius: 8px; padding: 18px 20px;
+  margin: 0 0 16px; overflow-x: auto; }
 p { margin: 4px 0 10px; max-width: 90ch; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: 6px 0 10px; font-size: 13px; }
 td, th { text-align: right; padding: 4px 0 4px 11px; white-space: nowrap; font-weight: normal; }
@@ -24,7 +25,8 @@ td:first-child, th:first-child { text-align: left; padding-left: 0; font-weight:
 thead th { color: #5a6775; border-bottom: 1px solid #dde3e9; vertical-align: bottom; }
 tbody tr + tr td { border-top: 1px solid #edf0f3; }
 .pictures { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr)); gap: 14px; margin: 0 0 18px; }
-figure { margin: 0; } figure img { width: 100%; height: auto; image-rendering: auto; display: block; border-radius: 3px; }
+figure { margin: 0; } figure img { width: 100%; height: auto; image-rendering: auto;
+  display: block; border-radius: 3px; }
 figcaption { font-size: 13px; color: #34414f; margin: 3px 0 0; }
 .plots { display: flex; flex-wrap: wrap; gap: 20px; } .plots figure { flex: 1 1 480px; max-width: 620px; }
 .note { color: #5a6775; }
@@ -53,9 +55,9 @@ std::string cost_section(const BenchResult& result)
     }
     return page_section(
         "Cost",
-        fmt::format("Rates are a second of processor time. Memory is the peak of a method's set-up above what there "
-                    "was before; the program's own peak was {}. "
-                    "Read, precompute and build are by the clock. What a cache holds already is read and not computed.",
+        fmt::format("Rates are per second of processor time. Memory is the peak of a method's set-up minus the memory "
+                    "used before it; the peak of the whole program was {}. "
+                    "Read, precompute and build are wall-clock times. Data in a cache are read, not computed again.",
                     bytes_words(result.peak_memory)),
         html_table({"method", "integrator", "read", "precompute", "build", "set up (processors)", "render (clock)",
                     "render (processors)", "memory", "paths/s", "rays/s", "events/s", "shells/s"},
@@ -73,16 +75,16 @@ std::string picture_section(const BenchResult& result)
                 figure(result, shown(m.picture), fmt::format("{}: {} samples a pixel", m.name, m.samples));
         html += figure(result, shown_flip(m.flip),
                        fmt::format("{}: FLIP, mean {}", m.name, flip_words(result, mean_flip(m.flip))));
-        html += figure(result, shown_bias(m.picture, reference),
-                       fmt::format("{}: difference over its standard error", m.name)) +
-                "</div>\n";
+        html +=
+            figure(result, shown_bias(m.picture, reference), fmt::format("{}: difference in standard errors", m.name)) +
+            "</div>\n";
     }
     return page_section("Pictures",
-                        fmt::format("FLIP: from black (no difference that one would see when flipping between them) to "
-                                    "pale yellow (1); that of the two halves of the reference is {:.3f}. "
+                        fmt::format("FLIP: from black (no visible difference when flipping between the pictures) to "
+                                    "pale yellow (1); its mean between the two halves of the reference is {:.3f}. "
                                     "Differences: blue where the picture is darker than the reference, red where it is "
-                                    "brighter, in squares of {} pixels, full colour at {} standard errors; "
-                                    "without bias they are pale, without order.",
+                                    "brighter, in squares of {} pixels a side, full colour at {} standard errors; "
+                                    "without bias the map is pale and has no pattern.",
                                     result.reference_flip, bias_square, bias_range),
                         html);
 }

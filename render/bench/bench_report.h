@@ -6,7 +6,7 @@
 
 namespace scree {
 
-/// All that was measured, as JSON.
+/// All measurements as JSON.
 std::string json_of(const BenchResult& result);
 
 } // namespace scree

@@ -12,7 +12,7 @@
 
 namespace scree {
 
-/// How far a method was after some time: means over its pictures, each of another seed.
+/// The error of a method after some time: means over its pictures, each with its own seed.
 struct ConvergencePoint {
     WorkTime time; ///< of one picture
     double samples = 0; ///< a pixel, of one picture
@@ -23,7 +23,7 @@ struct ConvergencePoint {
 struct MethodResult {
     std::string name, plan;
     SetupTime setup;
-    uint64_t memory = 0; ///< bytes at the peak of its set-up
+    uint64_t memory = 0; ///< peak bytes of its set-up, minus those used before it
     uint64_t grains = 0;
     std::vector<std::string> warnings;
     WorkTime time; ///< of all its pictures
@@ -34,28 +34,28 @@ struct MethodResult {
     HalfPictures picture;
     std::vector<double> flip; ///< against the reference
 
-    /// Seconds of processors until the relative variance of the picture is 1, without set-up.
+    /// Processor seconds of rendering, without set-up, until the relative variance of the picture is 1 (TTUV).
     double time_to_unit_variance() const { return estimate.noise.value * time.processor; }
 };
 
-/// All that one run of `scree bench` found out about a scene.
+/// The results of one run of `scree bench` on a scene.
 struct BenchResult {
     BenchJob job;
     uint64_t scene_hash = 0;
     Machine machine;
     ReferencePicture reference;
-    Measured reference_noise; ///< squared, relative; of infinite error where it is not known
-    double reference_flip = 0; ///< mean, of its two halves
+    Measured reference_noise; ///< relative variance; its standard error is infinite if the noise is not known
+    double reference_flip = 0; ///< mean FLIP between the reference's two halves
     std::vector<MethodResult> methods;
     std::vector<std::string> notes;
-    uint64_t peak_memory = 0; ///< of the program
+    uint64_t peak_memory = 0; ///< bytes, of the whole program
 
     int width() const { return reference.picture.width; }
     int height() const { return reference.picture.height; }
-    /// How many times less processor time of rendering, without set-up, a method takes than ept to the same variance;
-    /// nothing without ept. Of infinite standard error where a noise is not known.
+    /// How many times faster than ept a method reaches the same variance, by processor time without set-up. Nothing
+    /// without ept; the standard error is infinite if the noise of one of them is not known.
     std::optional<Measured> gain(const MethodResult& method) const;
-    /// Part of its threads' time in which rendering had a processor: well below 1 on a busy machine.
+    /// Processor time of rendering over wall time times threads: well below 1 on a busy machine.
     double processor_share() const;
 };
 

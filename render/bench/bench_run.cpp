@@ -13,10 +13,10 @@ namespace scree {
 
 namespace {
 
-constexpr int levels = 7; // slices double: a picture is looked at after 1/64, 1/32, ... and all of its time
+constexpr int levels = 7; // slices double: errors are measured after 1/64, 1/32, ... and all of the time
 
-/// Seeds apart from each other and from the one that `scree render` has with the same --seed: which: 0 methods, 1
-/// reference.
+/// The seed of the methods (which = 0) or of the reference (1): the two differ from each other and from the seed that
+/// `scree render` uses with the same --seed.
 uint64_t seed_of(const BenchJob& job, uint64_t which)
 {
     return mix64(mix64(job.scene.options.seed + 0x9e3779b97f4a7c15ull) + which);
@@ -96,10 +96,9 @@ BenchResult run_bench(const BenchJob& job, const Progress& progress)
     result.scene_hash = runs.front()->scene_hash();
     const std::string& key = result.reference.key;
     if (!key.empty() && key.rfind(fmt::format("{:016x} ", result.scene_hash), 0) != 0)
-        result.notes.push_back("the reference was rendered of another scene, or of this one before it was changed");
+        result.notes.push_back("the reference shows another scene, or this scene before it was changed");
     if (!reference.has_noise())
-        result.notes.push_back(
-            "nothing is known of the reference's noise: errors hold it too, and no bias can be told");
+        result.notes.push_back("the reference's noise is not known: errors include it, and no bias can be measured");
 
     std::vector<std::vector<ConvergencePoint>> points(runs.size());
     const double whole =
@@ -114,7 +113,7 @@ BenchResult run_bench(const BenchJob& job, const Progress& progress)
                                                                                        static_cast<double>(job.seeds)));
         }
         for (size_t m = 0; m < runs.size(); ++m) {
-            if (runs[m]->total_samples() == before[m]) continue; // not a sample more fits into a slice as short
+            if (runs[m]->total_samples() == before[m]) continue; // the slice was too short for another sample
             points[m].push_back(point_of(*runs[m], reference));
         }
     }

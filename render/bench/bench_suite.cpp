@@ -11,7 +11,7 @@ namespace scree {
 
 namespace {
 
-/// An array of names as they stand on the command line.
+/// A JSON array of names in the form of the command line, separated by commas.
 std::string names_of(const JsonValue& json, const std::vector<std::string>& allowed)
 {
     std::vector<std::string> names;
@@ -63,7 +63,7 @@ std::filesystem::path usual_suite()
         if (std::filesystem::exists(folder / name)) return folder / name;
     }
     throw InputError("--suite", "no " + name.string() + " here, nor above the program " + program.string(),
-                     "the suite of the source", "run it in the source's folder, or name the file as --suite=FILE");
+                     "the suite of the source tree", "run it in the source folder, or name the file as --suite=FILE");
 }
 
 std::vector<BenchJob> read_suite(const std::filesystem::path& file, double scale)

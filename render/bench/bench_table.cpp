@@ -31,7 +31,7 @@ std::vector<TableRow> table_rows(const BenchResult& result)
 
 std::string terminal_table(const std::vector<BenchResult>& results)
 {
-    constexpr std::array wide{14, 12, 11, 5, 3, 2}; // columns, the last first: they are on the page
+    constexpr std::array wide{14, 12, 11, 5, 3, 2}; // columns only for the page, from the last to the first
     const auto narrow = [&](TableRow row) {
         for (const int c : wide) row.erase(row.begin() + c);
         return row;

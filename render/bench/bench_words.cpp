@@ -9,7 +9,7 @@ namespace scree {
 
 namespace {
 
-/// Two digits of a squared number's root, in per cent.
+/// The square root of a number in per cent, with two digits.
 std::string percent(double squared)
 {
     const double value = 100 * std::sqrt(std::max(0.0, squared));
@@ -72,7 +72,7 @@ std::string gain_words(const BenchResult& result, const MethodResult& method)
     if (gain->error == 0) return "1";
     if (!std::isfinite(gain->error)) return fmt::format("{:.2g} +- ? x", gain->value);
     const int decimals =
-        std::clamp(static_cast<int>(std::ceil(-std::log10(gain->error))), 0, 4); // one digit of what is not known
+        std::clamp(static_cast<int>(std::ceil(-std::log10(gain->error))), 0, 4); // one digit of the error
     return fmt::format("{:.{}f} +- {:.{}f} x", gain->value, decimals, gain->error, decimals);
 }
 
@@ -100,16 +100,17 @@ std::string scene_words(const BenchResult& result)
         fmt::format("{}, frame {}, {}x{}, {} seeds, seed {}, {:g} s a method. Reference: {}", job.scene.scene.string(),
                     job.frame, result.width(), result.height(), job.seeds, job.scene.options.seed, job.seconds, r.name);
     if (r.samples > 0)
-        text += fmt::format(", {} samples a pixel, {} of processors", r.samples, seconds_words(r.processor_seconds));
+        text +=
+            fmt::format(", {} samples a pixel, {} of processor time", r.samples, seconds_words(r.processor_seconds));
     return text +
            fmt::format(", noise {}{}", noise_words(result),
-                       r.picture.halved ? fmt::format(", FLIP of its halves {:.3f}", result.reference_flip) : "");
+                       r.picture.halved ? fmt::format(", FLIP between its halves {:.3f}", result.reference_flip) : "");
 }
 
 std::string machine_words(const Machine& machine, double processor_share)
 {
     const auto counted = [](int n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
-    return fmt::format("{}, {} on {}, {:.0f} % of a core a thread, {}; Scree {}, build {}", machine.processor,
+    return fmt::format("{}, {} on {}, {:.0f} % of a core per thread, {}; Scree {}, build {}", machine.processor,
                        counted(machine.threads, "thread"), counted(machine.cores, "core"), 100 * processor_share,
                        machine.date, SCREE_VERSION, machine.build);
 }

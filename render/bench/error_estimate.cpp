@@ -8,8 +8,8 @@ namespace scree {
 
 namespace {
 
-/// Student's t of 95 in 100 with so many degrees of freedom, by the expansion for many (Fisher, Cornish 1960); of few,
-/// that of three.
+/// Student's t of the two-sided 95 % interval, by the expansion for many degrees of freedom (Fisher, Cornish 1960);
+/// fewer than three count as three.
 double student(double freedom)
 {
     constexpr double z = 1.959964, z3 = z * z * z, z5 = z3 * z * z;
@@ -56,7 +56,7 @@ std::vector<V3d> surroundings(const HalfPictures& picture)
     return around;
 }
 
-/// What squared errors are multiplied by, a number a pixel, so that they are relative to what is around it.
+/// One weight for each pixel, which makes a squared error relative to the reference around the pixel.
 std::vector<double> weights_of(const HalfPictures& reference)
 {
     const RelativeError relative(mean_radiance(reference));
@@ -66,7 +66,7 @@ std::vector<double> weights_of(const HalfPictures& reference)
     return weights;
 }
 
-/// The mean over pixels of what `of` says about each, relative. known: whether the noise that it takes off is.
+/// The mean over pixels of weight times of(pixel). known: whether the noise that `of` uses is known.
 template <class Of>
 Measured relative_mean(const std::vector<double>& weights, bool known, Of of)
 {
@@ -77,7 +77,7 @@ Measured relative_mean(const std::vector<double>& weights, bool known, Of of)
     return result;
 }
 
-/// Of one pixel, as the function of pictures has its mean.
+/// The squared error at pixel p; the public squared_error is its mean.
 double squared_error(const std::vector<std::vector<V3d>>& pictures, const HalfPictures& reference, size_t p)
 {
     double squares = 0;
@@ -85,7 +85,7 @@ double squared_error(const std::vector<std::vector<V3d>>& pictures, const HalfPi
     return squares / static_cast<double>(pictures.size()) - channel_sum(reference.noise(p));
 }
 
-/// As estimate_error says.
+/// The squared bias by the formula of estimate_error.
 Measured squared_bias(const HalfPictures& picture, const HalfPictures& reference, const std::vector<double>& weights)
 {
     return relative_mean(weights, reference.has_noise(), [&](size_t p) {
@@ -140,7 +140,7 @@ Measured part_to_error(const std::vector<std::vector<V3d>>& pictures, const Half
     const double squared =
         relative_mean(weights, true, [&](size_t p) { return squared_error(pictures, reference, p); }).value;
     const double part = variance / squared;
-    // To first order, what a pixel adds to the difference of the two.
+    // To first order, the contribution of a pixel to the error of the ratio.
     Measured result = relative_mean(weights, reference.has_noise(), [&](size_t p) {
         return (noise(p) - part * squared_error(pictures, reference, p)) / squared;
     });

@@ -38,7 +38,7 @@ void write_exr_planes(const std::filesystem::path& path, const ExrPlanes& pictur
         for (const auto& [key, number] : picture.numbers) header.insert(key, Imf::DoubleAttribute(number));
         for (const auto& item : picture.planes) header.channels().insert(item.first, Imf::Channel(Imf::FLOAT));
         Imf::OutputFile out(file.temporary().c_str(), header);
-        ExrPlanes copy{picture.width, picture.height, picture.planes, {}, {}}; // OpenEXR asks for what it might change
+        ExrPlanes copy{picture.width, picture.height, picture.planes, {}, {}}; // OpenEXR takes non-const pointers
         out.setFrameBuffer(frame_buffer(copy));
         out.writePixels(picture.height);
     } catch (const std::exception& error) {

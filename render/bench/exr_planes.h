@@ -8,7 +8,7 @@
 
 namespace scree {
 
-/// An EXR as planes of 32-bit numbers, one a channel, rows from the top, with its texts and numbers.
+/// An EXR as planes of 32-bit numbers, one for each channel, rows from the top, with its text and number attributes.
 struct ExrPlanes {
     int width = 0, height = 0;
     std::map<std::string, std::vector<float>> planes;
@@ -16,7 +16,7 @@ struct ExrPlanes {
     std::map<std::string, double> numbers;
 };
 
-/// The file appears whole or not at all. Throws InputError.
+/// Writes the file whole or not at all. Throws InputError.
 void write_exr_planes(const std::filesystem::path& path, const ExrPlanes& picture);
 
 /// Reads every channel as float. Throws InputError when the file is no EXR, damaged or a crop.

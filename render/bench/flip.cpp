@@ -11,7 +11,7 @@ namespace {
 // All numbers are those of Andersson et al. 2020, sections 4.1 to 4.3.
 constexpr double exponent_color = 0.7, exponent_feature = 0.5;
 constexpr double knee = 0.4, at_knee = 0.95; // p_c, p_t
-constexpr double feature_width = 0.082; // degrees: what an edge or point is wide
+constexpr double feature_width = 0.082; // degrees: the width of an edge or point
 
 /// A contrast sensitivity as a sum of two Gaussians: a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees.
 struct Sensitivity {
@@ -19,7 +19,7 @@ struct Sensitivity {
 };
 constexpr Sensitivity achromatic{1, 0.0047, 0, 1e-5}, red_green{1, 0.0053, 0, 1e-5},
     blue_yellow{34.1, 0.04, 13.5, 0.025};
-constexpr double widest = 0.04; // the largest b: all kernels reach three of its standard deviations
+constexpr double widest = 0.04; // the largest b: all kernels extend to three of its standard deviations
 
 using Plane = std::vector<double>;
 
@@ -27,8 +27,7 @@ struct Size {
     int width, height;
 };
 
-/// A picture of one channel under a kernel that is a product of one along x and one along y; beyond the edge it goes on
-/// as at it.
+/// Convolves one channel with a separable kernel; beyond the border the border pixels repeat.
 Plane convolve(const Plane& plane, Size size, const std::vector<double>& along_x, const std::vector<double>& along_y)
 {
     const int rx = static_cast<int>(along_x.size() / 2), ry = static_cast<int>(along_y.size() / 2);
@@ -67,7 +66,7 @@ double total(const std::vector<double>& v)
     return sum;
 }
 
-/// What the eye makes of a channel at this distance.
+/// A channel filtered by the contrast sensitivity of the eye.
 Plane seen(const Plane& plane, Size size, const Sensitivity& s, double ppd)
 {
     const int radius = static_cast<int>(std::ceil(3 * std::sqrt(widest / (2 * pi * pi)) * ppd));
@@ -86,7 +85,7 @@ Plane seen(const Plane& plane, Size size, const Sensitivity& s, double ppd)
     return result;
 }
 
-/// Rec. 709 to CIE XYZ over the white, which is D65 (each channel of white is 1), and back.
+/// Rec. 709 to CIE XYZ; the functions below divide by the white, D65, so that each channel of white is 1.
 constexpr double to_xyz[3][3] = {
     {0.4124564, 0.3575761, 0.1804375}, {0.2126729, 0.7151522, 0.0721750}, {0.0193339, 0.1191920, 0.9503041}};
 
@@ -103,7 +102,7 @@ V3d relative_xyz(const V3d& rgb)
 V3d from_relative_xyz(const V3d& xyz)
 {
     static const Imath::M33d inverse = [] {
-        Imath::M33d m; // rows times matrix, as Imath has it
+        Imath::M33d m; // Imath multiplies row vectors by matrices
         for (int i = 0; i < 3; ++i) {
             const double white = to_xyz[i][0] + to_xyz[i][1] + to_xyz[i][2];
             for (int j = 0; j < 3; ++j) m[j][i] = to_xyz[i][j] / white;
@@ -126,7 +125,7 @@ V3d from_opponent(const V3d& c)
     return from_relative_xyz({y + c.y / 500, y, y - c.z / 200});
 }
 
-/// CIE L*a*b* with the chroma of dark colours reduced, as Hunt found.
+/// CIE L*a*b* with the chroma of dark colours reduced (Hunt effect).
 V3d hunt_lab(const V3d& rgb)
 {
     const V3d xyz = relative_xyz(rgb);
@@ -140,7 +139,7 @@ double hyab(const V3d& a, const V3d& b) { return std::abs(a.x - b.x) + std::hypo
 
 V3d cut(const V3d& c) { return {std::clamp(c.x, 0.0, 1.0), std::clamp(c.y, 0.0, 1.0), std::clamp(c.z, 0.0, 1.0)}; }
 
-/// The picture as it is seen, in the colours that distances are taken of, and its light for the features.
+/// A picture as the eye sees it: its colours for the colour distance, and its luminance for the features.
 struct Seen {
     std::vector<V3d> colors;
     Plane light;
@@ -173,7 +172,7 @@ std::vector<double> balanced(std::vector<double> kernel)
     return kernel;
 }
 
-/// The length of a derivative along x and y: of first order an edge, of second a point.
+/// The magnitude of the derivative along x and y: the first order finds edges, the second points.
 Plane feature(const Plane& light, Size size, int order, double ppd)
 {
     const double deviation = 0.5 * feature_width * ppd, square = deviation * deviation;
@@ -191,7 +190,7 @@ Plane feature(const Plane& light, Size size, int order, double ppd)
     return result;
 }
 
-/// Spreads colour differences over 0 to 1: nearly all of it for those up to the knee.
+/// Maps colour differences to 0..1: those up to the knee take at_knee of the range.
 double spread(double difference, double largest)
 {
     const double at = knee * largest;

@@ -4,7 +4,7 @@ namespace scree {
 
 namespace {
 
-/// One pixel of several films.
+/// Sums over several films of one pixel.
 struct Sums {
     double samples = 0;
     V3d sum{0}, squares{0};

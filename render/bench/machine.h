@@ -13,11 +13,10 @@ struct Machine {
     std::string build; ///< build_identity()
 };
 
-/// threads: 0: all cores.
+/// threads: 0 means all cores.
 Machine this_machine(int threads);
 
-/// What tells one build of the program from another: a hash of the running program's file; where that cannot be read,
-/// the version.
+/// Identifies the build: a hash of the running program's file, or the version if that file cannot be read.
 const std::string& build_identity();
 
 } // namespace scree

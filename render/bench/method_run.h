@@ -11,42 +11,43 @@
 
 namespace scree {
 
-/// Where the time before the first sample went, seconds by the clock.
+/// Where the time before the first sample went, in wall-clock seconds.
 struct SetupTime {
     double read = 0; ///< files: scene, grains, meshes, exemplars, environment maps
-    double precompute = 0; ///< scattering of grains, media in their place, shells, distances, checks of what is filled
+    double precompute = 0; ///< scattering of grains, media that replace them, shells, distances, checks of fills
     double build = 0; ///< acceleration structures
     WorkTime all;
     std::vector<std::string> cached; ///< parts that were read from a cache of earlier runs
 };
 
-/// One method at work on a scene: its world, built once, and pictures of several seeds that grow slice by slice.
+/// Renders a scene with one method: builds the world once, then renders pictures of several seeds slice by slice.
 class MethodRun {
 public:
-    /// Reads and builds all. first_seed: of picture 0; the others have those after it. Throws InputError, Cancelled.
+    /// Reads and builds everything. first_seed: picture i renders with a seed made of first_seed + i. Throws
+    /// InputError, Cancelled.
     MethodRun(const BenchJob& job, const BenchMethod& method, uint64_t first_seed, size_t pictures,
               const Progress& progress);
 
-    const std::string& name() const { return name_; } ///< of auto with its accuracy
+    const std::string& name() const { return name_; } ///< for auto with the accuracy
     const std::string& plan_name() const { return plan_name_; } ///< what the integrator does, in a word
     uint64_t scene_hash() const { return scene_hash_; }
     const SetupTime& setup_time() const { return setup_time_; }
-    uint64_t memory() const { return memory_; } ///< bytes at its peak, above what there was before
+    uint64_t memory() const { return memory_; } ///< peak bytes of the set-up, minus those used before it
     uint64_t grains() const { return setup_->world().grain_count() + setup_->world().replaced_grains; }
     const std::vector<std::string>& warnings() const { return warnings_; }
 
     size_t pictures() const { return films_.size(); }
     const std::vector<Film>& films() const { return films_; }
-    /// Takes the place of a picture that was rendered before with the same seed.
+    /// Replaces a picture by one that an earlier run rendered with the same seed.
     void restore(size_t picture, Film film) { films_[picture] = std::move(film); }
-    /// Renders picture `picture` on, until its rendering has taken about so many seconds of processors in all, or one
-    /// sample a pixel. How many samples that is, is decided beforehand, so that no sample is left out for taking long.
+    /// Continues picture `picture` until its rendering has taken about `processor_seconds` in all, and to at least one
+    /// sample a pixel. The number of samples is fixed before they are rendered, so that slow samples are not left out.
     /// Throws Cancelled.
     void render_until(size_t picture, double processor_seconds, const Progress& progress);
 
     Film empty_film() const;
-    /// Renders a film on that is not one of the pictures, nor counted: as it is by default, to so many samples a pixel
-    /// or to an error.
+    /// Continues a film that is not one of the pictures and does not count in times or statistics, to `spp` samples a
+    /// pixel or to `error`; all other options are the scene's.
     RenderStatistics render_apart(Film& film, uint64_t seed, uint32_t spp, double error) const;
 
     const WorkTime& time(size_t picture) const { return times_[picture]; }

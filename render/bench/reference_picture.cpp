@@ -35,7 +35,7 @@ void add_color(ExrPlanes& file, const std::string& prefix, const V3d& value)
     for (int c = 0; c < 3; ++c) file.planes[prefix + colors[c]].push_back(static_cast<float>(value[c]));
 }
 
-/// The films as planes: means, counts and variances of the mean of each, from which they can be gone on with.
+/// The films as planes: the mean, count and variance of the mean of each, from which rendering can continue.
 ExrPlanes planes_of(const MethodRun& method)
 {
     ExrPlanes file;
@@ -98,7 +98,7 @@ void check_size(const ExrPlanes& file, int width, int height, const std::filesys
 {
     if (file.width == width && file.height == height) return;
     throw InputError(path.string(), fmt::format("a picture of {}x{}", file.width, file.height),
-                     fmt::format("one of {}x{}, as the scene has it", width, height),
+                     fmt::format("a picture of {}x{}, the size of the scene's film", width, height),
                      fmt::format("ask for --size {}x{}", file.width, file.height));
 }
 
@@ -124,15 +124,16 @@ ReferencePicture render_reference(MethodRun& method, const std::filesystem::path
                       key = job + build_identity();
     std::string note;
     double before = 0,
-           asked = 0; // seconds of processors: taken, and what they were to be (slices end with whole samples)
+           asked = 0; // processor seconds: taken and asked for (they differ, as slices end with whole samples)
     if (std::filesystem::exists(path)) {
         try {
             const ExrPlanes file = read_exr_planes(path);
             const bool same_size = file.width == method.films()[0].width() && file.height == method.films()[0].height();
             const auto kept = file.texts.find("referenceKey");
             if (kept == file.texts.end())
-                throw InputError(path.string(), "a picture that is no reference of ours",
-                                 "none, or one that may be replaced", "move it away, or name it with --reference");
+                throw InputError(path.string(), "a picture that `scree bench` did not render",
+                                 "no file, or a reference of `scree bench`",
+                                 "move it away, or name it with --reference");
             if (same_size && kept->second == key) {
                 for (size_t h = 0; h < 2; ++h) method.restore(h, film_of(file, half_names[h]));
                 before = file.numbers.at("processorSeconds");
@@ -140,19 +141,19 @@ ReferencePicture render_reference(MethodRun& method, const std::filesystem::path
             } else {
                 const std::filesystem::path aside = path.parent_path() / (path.stem().string() + "-before.exr");
                 std::filesystem::rename(path, aside);
-                note = fmt::format("the reference that was there is of another {}: made again; it is kept as {}, which "
-                                   "--reference takes",
-                                   same_size && kept->second.rfind(job, 0) == 0 ? "build of scree"
-                                                                                : "scene, size, method or seed",
-                                   aside.string());
+                note = fmt::format(
+                    "the reference in the folder was of another {} and is rendered again; the old one is "
+                    "kept as {}, which --reference accepts",
+                    same_size && kept->second.rfind(job, 0) == 0 ? "build of scree" : "scene, size, method or seed",
+                    aside.string());
             }
         } catch (const std::out_of_range&) {
-            throw InputError(path.string(), "a reference with channels missing", "a whole one", "remove it");
+            throw InputError(path.string(), "a reference with missing channels", "a complete one", "remove it");
         } catch (const std::filesystem::filesystem_error& error) {
             throw InputError(path.string(), error.what(), "a reference that can be moved aside");
         }
     }
-    constexpr double each = 30; // seconds: as much is lost when it is killed
+    constexpr double each = 30; // seconds of work that are lost when the program is killed
     const double left = asked < processor_seconds ? std::max(0.0, processor_seconds - before) : 0;
     const int slices = left > 0 ? std::max(8, static_cast<int>(std::min(1e6, left / each))) : 0;
     std::optional<ExrPlanes> unsaved;

@@ -22,7 +22,7 @@ std::vector<TableRow> all_rows(const SuiteResult& suite)
     return rows;
 }
 
-/// Part of its threads' time in which all rendering had a processor.
+/// The mean of processor_share over the scenes.
 double share_of(const SuiteResult& suite)
 {
     double share = 0;
@@ -88,7 +88,7 @@ std::string with_block(const std::string& text, const std::string& block, const 
     if (from == std::string::npos || to == std::string::npos || to < from ||
         text.find(begin, from + 1) != std::string::npos || text.find(end, to + 1) != std::string::npos) {
         throw InputError(file, "no place for the numbers", "'" + begin + "' and, after it, '" + end + "', once each",
-                         "put both, on lines of their own, where the table shall stand");
+                         "put both marks where the table should be, each on a line of its own");
     }
     return text.substr(0, from + begin.size()) + "\n" + block + text.substr(to);
 }

@@ -7,29 +7,29 @@
 
 namespace scree {
 
-/// What a suite was asked for and found.
+/// The settings and results of a suite.
 struct SuiteResult {
-    std::string command; ///< that brings it again
-    double scale = 1; ///< of its times
-    double seconds = 0; ///< by the clock, in all
+    std::string command; ///< that repeats the run
+    double scale = 1; ///< factor of all times
+    double seconds = 0; ///< wall-clock time of the whole suite
     std::vector<BenchResult> scenes;
 };
 
-/// One screen: a line a scene and method.
+/// The results on one screen: a line for each scene and method.
 std::string suite_table(const SuiteResult& suite);
 
-/// The same, wider, as Markdown, with the command, the machine and the date. plots: whether the plots <name>.svg are
-/// shown below it.
+/// All columns as Markdown, with the command, the machine and the date. plots: whether to show the plots <name>.svg
+/// below the table.
 std::string suite_markdown(const SuiteResult& suite, bool plots);
 
-/// The same as a page on its own, with its plots.
+/// All columns and the plots as a self-contained page.
 std::string suite_page(const SuiteResult& suite);
 
-/// All of it as JSON.
+/// All settings and results as JSON.
 std::string suite_json(const SuiteResult& suite);
 
-/// text with what stands between "<!-- scree bench -->" and "<!-- /scree bench -->" replaced by block. file: for
-/// messages. Throws InputError where the two are not there once each, in this order.
+/// Replaces the part of `text` between "<!-- scree bench -->" and "<!-- /scree bench -->" by `block`. file: for
+/// messages. Throws InputError unless both marks occur once, in this order.
 std::string with_block(const std::string& text, const std::string& block, const std::string& file);
 
 } // namespace scree

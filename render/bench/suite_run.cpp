@@ -18,9 +18,9 @@ void make_folder(const std::filesystem::path& folder, const std::vector<std::str
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (!std::filesystem::is_directory(folder))
-        throw InputError("--output", "'" + folder.string() + "' cannot be made", "a folder that can be written");
+        throw InputError("--output", "'" + folder.string() + "' cannot be created", "a folder that can be written");
     for (const std::string& name : files)
-        AtomicFile(folder / name); // can be written: better told now than after the work
+        AtomicFile(folder / name); // throws now, before the work, if it cannot be written
 }
 
 std::string text_of(const std::filesystem::path& file)
@@ -52,13 +52,14 @@ void run_suite(const std::vector<BenchJob>& jobs, SuiteResult& suite, const std:
         job.folder = folder / "details" / job.title;
         progress.update(job.title, static_cast<double>(suite.scenes.size()) / static_cast<double>(jobs.size()));
         BenchResult result = run_and_write(job, progress);
-        result.reference.picture = {result.width(),
-                                    result.height(),
-                                    {},
-                                    {},
-                                    {},
-                                    result.reference.picture.share,
-                                    result.reference.picture.halved}; // shown; only its size is asked for from here on
+        result.reference.picture = {
+            result.width(),
+            result.height(),
+            {},
+            {},
+            {},
+            result.reference.picture.share,
+            result.reference.picture.halved}; // drops the pixels; only the size is used from here on
         for (MethodResult& m : result.methods) m.picture = {};
         suite.scenes.push_back(std::move(result));
     }

@@ -8,12 +8,12 @@
 
 namespace scree {
 
-/// Runs the benches one after the other and writes what they found.
+/// Runs the benches one after the other and writes their results.
 ///
-/// To folder/details/<name>, as each ends, a page, numbers and the reference; when all are done, to `folder`
-/// index.html, README.md, suite.json and a <name>.svg each, all small. readme: if not empty, the numbers go into its
-/// block too (with_block). suite: its command and scale. Throws InputError, Cancelled: `folder` is then as it was but
-/// for the details.
+/// When a bench ends, folder/details/<name> has its page, numbers and reference. When all are done, `folder` gets
+/// index.html, README.md, suite.json and one <name>.svg for each bench, all small. readme: if not empty, its block
+/// (with_block) also gets the table. suite: gives command and scale, and receives the results. Throws InputError,
+/// Cancelled: then nothing in `folder` has changed except the details.
 void run_suite(const std::vector<BenchJob>& jobs, SuiteResult& suite, const std::filesystem::path& folder,
                const std::filesystem::path& readme, const Progress& progress);
 

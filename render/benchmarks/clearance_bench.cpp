@@ -1,4 +1,4 @@
-// What bounds of distances to triangles cost and how tight they are, by the distance; one thread.
+// The cost and tightness of bounds on distances to triangles, by the distance; one thread.
 // usage: clearance_bench [--quick]
 
 #include "base/noise.h"
@@ -14,7 +14,7 @@
 namespace scree {
 namespace {
 
-/// Seconds that processors worked for this program: other programs of a busy machine do not count.
+/// Processor seconds of this program: other programs on a busy machine do not count.
 double busy_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct Mesh {
@@ -55,8 +55,8 @@ Mesh rough(uint32_t n)
     return mesh;
 }
 
-/// Places about so far from the surface: from random places of triangles along their normals. The box's longest edge is
-/// about 2.
+/// Points about `from` to `to` away from the surface: random points of triangles, moved along the normals. The longest
+/// edge of the box is about 2.
 std::vector<V3d> places_near(const Mesh& mesh, const Imath::Box3d& box, double from, double to, size_t count)
 {
     std::mt19937_64 random(5);

@@ -1,5 +1,5 @@
-// Explicit path tracing against Embree alone: how many segments of light paths a second, shading and all, beside the
-// bare nearest-hit query over the very same segments, in one process and on one thread.
+// Explicit path tracing compared with Embree alone: segments of light paths a second, shading included, beside the bare
+// nearest-hit query over the same segments, in one process and on one thread.
 //
 // usage: ept_bench [--quick]     (--quick: 10^5 grains and fewer paths)
 
@@ -134,7 +134,7 @@ void run(const char* name, uint64_t count, const std::vector<PackedSphere>& sphe
     const auto skip = static_cast<float>(1e-4 * scene.world().grains.radius(0));
     flush_subnormals();
 
-    // In turns, so that a machine that changes its speed does so for both.
+    // In turns, so that a change of the machine's speed affects both.
     double ept_seconds = 0, bare_seconds = 0;
     uint64_t segments = 0, paths = 0, bare_segments = 0;
     for (uint32_t round = 0; ept_seconds < seconds_wanted && round < 100; ++round) {

@@ -1,5 +1,5 @@
-// The media that stand for packings of spheres of one size: by formula and by walks among proxies; lengths in radii,
-// one core. usage: equivalent_bench [scatterings a walk, default 600000] [GSDF error, default 0.03]
+// The media that represent packings of equal spheres, by formula and by walks among proxies; lengths in radii, one
+// core. usage: equivalent_bench [scatterings a walk, default 600000] [GSDF error, default 0.03]
 
 #include "render/equivalent/continuous_equivalent.h"
 #include "render/grains/library/grain_library.h"

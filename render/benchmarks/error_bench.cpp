@@ -1,6 +1,6 @@
-// What `scree render --error` claims against what is true, and its time against that of as many samples everywhere, on
-// the scenes of a suite. usage: error_bench [suite, default examples/bench/suite.json] [errors, default 0.05,0.02]
-// [seconds of a scene's reference, default 20]
+// Compares the error that `scree render --error` claims with the true error, and its time with that of uniform
+// sampling, on the scenes of a suite. usage: error_bench [suite, default examples/bench/suite.json] [errors, default
+// 0.05,0.02] [seconds of a scene's reference, default 20]
 //                    [pictures of each error, default 2] [size, of the suite's, default 0.5] [only the scene of this
 //                    name]
 
@@ -20,7 +20,7 @@ namespace {
 using namespace scree;
 using Row = std::vector<std::string>;
 
-/// Pictures that were rendered to one error, each of another seed, and what they took.
+/// Pictures rendered to the same error, each with its own seed, and their cost.
 struct Adaptive {
     double asked = 0, claim = 0, samples = 0, seconds = 0; ///< claim: squared; all but the first are sums
     std::vector<std::vector<V3d>> pictures;
@@ -38,7 +38,7 @@ struct Adaptive {
     }
 };
 
-/// "4.8 +- 0.2 %" of a squared number.
+/// The root of a squared number as "4.8 +- 0.2 %".
 std::string error_of(const Measured& squared, const Measured& reference_noise)
 {
     if (!(squared.value > squared.error))
@@ -47,7 +47,7 @@ std::string error_of(const Measured& squared, const Measured& reference_noise)
     return fmt::format("{:.2f} +- {:.2f} %", 100 * root, 50 * squared.error / root);
 }
 
-/// uniform: two pictures of as many samples everywhere, the reference. Errors are means over pictures.
+/// uniform: two pictures with equally many samples in all pixels, the reference. Errors are means over pictures.
 Row row_of(const std::string& name, const Adaptive& adaptive, const MethodRun& uniform)
 {
     const auto n = static_cast<double>(adaptive.pictures.size());
@@ -96,7 +96,7 @@ try {
         const double each = reference_seconds * this_machine(0).threads / static_cast<double>(pictures * errors.size());
         double until = 0;
         for (size_t k = 0; k < pictures; ++k) {
-            for (Adaptive& adaptive : adaptives) { // in turns, as the machine may be faster now and slower then
+            for (Adaptive& adaptive : adaptives) { // in turns, as the machine's speed may change
                 adaptive.render(run);
                 until += each;
                 for (size_t h = 0; h < 2; ++h) run.render_until(h, until / 2, Progress());
@@ -105,11 +105,12 @@ try {
         for (const Adaptive& adaptive : adaptives) rows.push_back(row_of(job.title, adaptive, run));
         fmt::print(stderr, "{}\n", job.title);
     }
-    fmt::print("\nErrors: root of the mean squared relative error; true: of one picture against the uniform ones, less "
-               "their noise (reference), with a standard error that holds it. Samples: a pixel.\n"
-               "Seconds: of processors. Uniform: with as many samples everywhere, to the same true error. (ref.): no "
-               "more can be told with this reference.\n\n{}",
-               text_table(rows));
+    fmt::print(
+        "\nErrors: root of the mean squared relative error. True: of one picture against the uniform ones, minus "
+        "their noise (reference), with a standard error that includes this noise. Samples: a pixel.\n"
+        "Seconds: processor time. Uniform: equally many samples in all pixels, to the same true error. (ref.): "
+        "below the reference's noise, not measurable.\n\n{}",
+        text_table(rows));
     return 0;
 } catch (const scree::InputError& error) {
     fmt::print(stderr, "{}\n", error.what());

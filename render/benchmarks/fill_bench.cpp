@@ -1,4 +1,4 @@
-// What a procedural fill costs: by the number of grains it stands for, and beside the list of the same spheres.
+// The cost of a procedural fill by the number of its grains, beside a list of the same spheres.
 // usage: fill_bench [--quick]
 
 #include "mixtures/single_mixture.h"
@@ -130,8 +130,8 @@ void run(bool quick)
     const uint32_t rays = quick ? 20000 : 100000;
     fmt::print("A ball filled from a tile of 2,000 spheres in two variants, traced on one thread; paths among diffuse "
                "grains of\n"
-               "reflectance 0.5 under a white sky. Microseconds; the list is of the same spheres where they are few "
-               "enough.\n\n");
+               "reflectance 0.5 under a white sky. Times in microseconds; list: a list of the same spheres, if they "
+               "are few enough.\n\n");
     fmt::print("{:>8} {:>10} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>10} {:>10} {:>8}\n", "fraction", "grains",
                "set-up s", "resident", "first hit", "segment", "segments", "radiance", "list: hit", "segment", "ratio");
     for (const double fraction : {0.05, 0.5}) {

@@ -1,4 +1,4 @@
-// What walks through a heterogeneous medium cost: a cloud of 256^3 voxels, one thread.
+// The cost of walks through a heterogeneous medium: a cloud of 256^3 voxels, one thread.
 // usage: medium_bench [--quick]
 
 #include "base/noise.h"
@@ -17,7 +17,7 @@
 namespace scree {
 namespace {
 
-/// Seconds that processors worked for this program: other programs of a busy machine do not count.
+/// Processor seconds of this program: other programs on a busy machine do not count.
 double busy_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 constexpr int size = 256;
@@ -82,7 +82,7 @@ struct Rate {
     double per_path = 0;
 };
 
-/// Lossless walks until they leave.
+/// Lossless walks until they leave the medium.
 Rate walk(const GridMedium& medium, double g, uint32_t paths)
 {
     const double start = busy_seconds();

@@ -1,9 +1,9 @@
 // Proxy path tracing against explicit path tracing on packed beds under sun and sky: time x variance of a pixel.
 //
-// A path through smooth glass as it is cannot sample the sun: it finds it by chance, or brings nothing. Its variance is
-// then the sun's radiance times the mean, and so many paths would be needed to see it that it is measured under a sun
-// of ten times the diameter and a hundredth of the radiance, and counted a hundredfold. usage: ppt_bench [GSDF error,
-// default 0.02]
+// A path through explicit smooth glass cannot sample the sun: the path hits the sun by chance, or brings nothing. The
+// variance is then the sun's radiance times the mean, and measuring it would take too many paths. So it is measured
+// under a sun of ten times the diameter and a hundredth of the radiance, and multiplied by 100.
+// usage: ppt_bench [GSDF error, default 0.02]
 
 #include "base/warp.h"
 #include "tests/builders/grain_beds.h"
@@ -63,7 +63,7 @@ int main(int argc, char** argv)
     fmt::print("beds of 10,000 grains, f 0.6, under a sun of 0.53 degrees and a sky; time x variance of EPT over that "
                "of PPT (larger is better)\n");
     fmt::print("{:20} {:>10} {:>10} {:>10} {:>10} {:>12} {:>14}\n", "grains", "EPT us", "PPT us", "EPT var", "PPT var",
-               "EPT/PPT", "1 as it is");
+               "EPT/PPT", "1 explicit");
     for (const BedGrain& grain : bed_grains(error)) {
         const bool by_chance = grain.material.is_delta();
         const auto bed = make_bed_under_sun(grain, 0.6, 10000, 0.53), hazy = make_bed_under_sun(grain, 0.6, 10000, 5.3);

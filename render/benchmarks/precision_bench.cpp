@@ -1,10 +1,10 @@
 // How far apart two renders of the same scene are, pixel by pixel: the tracer in single precision (the default) against
 // one built with -DSCREE_DOUBLE=ON. render/benchmarks/compare_precision runs it over scenes. The same seed gives the
-// same paths, but where rounding flips a choice.
+// same paths, except where rounding flips a choice.
 //
 //     precision_bench NAME SINGLE.exr DOUBLE.exr
 //
-// Exit status 1 where the means are farther apart than rounding and chance bring.
+// Exit status 1 if the means are farther apart than rounding and chance explain.
 
 #include "base/error.h"
 #include "render/bench/exr_planes.h"
@@ -38,7 +38,7 @@ try {
         sum += difference;
         squares += difference * difference;
     }
-    // Choices that rounding flips leave pixels apart by their noise, as often up as down: the standard error is that of
+    // Where rounding flips a choice, pixels differ by their noise, as often up as down: the standard error is that of
     // the pixels' differences.
     const auto n = static_cast<double>(count);
     const double error = std::sqrt(std::max(0.0, squares / n - sum / n * (sum / n)) / n);

@@ -1,5 +1,5 @@
-// Reflectance and transmittance of slabs of packed spheres of radius 1: grains as they are against the media that stand
-// for them. usage: slab_bench [paths, default 20000] [thickness, default 10] [fractions, default 0.1,0.3,0.5,0.6]
+// Reflectance and transmittance of slabs of packed spheres of radius 1: explicit grains against the media that
+// represent them. usage: slab_bench [paths, default 20000] [thickness, default 10] [fractions, default 0.1,0.3,0.5,0.6]
 // [grains, default all] [ept|ppt]
 
 #include "mixtures/single_mixture.h"
@@ -43,8 +43,8 @@ MediumRegion region(const V3d& lo, const V3d& hi, const ContinuousEquivalent& me
     return region;
 }
 
-/// Grains at least `depth` from the faces are a medium; none: all are grains; negative: a medium alone, one radius
-/// within the faces.
+/// Grains at least `depth` from the faces are replaced by the medium. medium null: all are grains; depth negative: the
+/// medium alone, one radius inside the faces.
 std::unique_ptr<Slab> make_slab(double thickness, double fraction, const GrainType& type,
                                 const ContinuousEquivalent* medium, double depth)
 {
@@ -83,7 +83,7 @@ Figures shine(const Slab& slab, double thickness, uint32_t paths, double cosine,
         Sampler sampler(seed, p, 0, 0);
         const V3d d(std::sqrt(1 - cosine * cosine), 0, -cosine);
         const double u = sampler.next(), v = sampler.next();
-        const double reach = 0.5 * wide * thickness; // many places: the packing is not to be seen, but packings
+        const double reach = 0.5 * wide * thickness; // many places, so that no single packing shows
         const V3d target(reach * (2 * u - 1), reach * (2 * v - 1), 0.5 * thickness);
         PathOptions options;
         options.explicit_grains = explicit_grains;

@@ -1,4 +1,4 @@
-// What it takes to start: ten opaque grains set up under `auto` against `ept`, in turns.
+// The time to start: sets up ten opaque grains with `auto` and with `ept`, in turns.
 // usage: start_bench [repetitions, 200 by default]
 
 #include "base/json.h"
@@ -20,14 +20,16 @@ SceneDescription ten_grains(const std::string& integrator)
         spheres +=
             fmt::format(R"({}{{"center": [{}, {}, 0], "radius": 0.25}})", i ? ", " : "", 0.5 * (i % 5), 0.5 * (i / 5));
     const std::string text =
-        R"({"camera": {"origin": [0, -9, 5], "target": [0, 0, 0]}, "lights": [{"kind": "constant"}], "integrator": {"kind": ")" +
+        R"({"camera": {"origin": [0, -9, 5], "target": [0, 0, 0]}, "lights": [{"kind": "constant"}], )"
+        R"("integrator": {"kind": ")" +
         integrator +
-        R"("}, "grains": {"types": {"clay": {"shape": "sphere", "material": {"kind": "lambert"}}}, "assembly": {"spheres": [)" +
+        R"("}, "grains": {"types": {"clay": {"shape": "sphere", "material": {"kind": "lambert"}}}, )"
+        R"("assembly": {"spheres": [)" +
         spheres + "]}}}";
     return read_scene(JsonDocument::parse(text, "ten.json", "."), "ten.json");
 }
 
-/// From the scene as read to the first ray.
+/// Seconds from the scene description to the first ray.
 double setup_seconds(const SceneDescription& scene)
 {
     const Stopwatch watch;

@@ -26,7 +26,7 @@ namespace {
 
 using namespace scree;
 
-/// Seconds that processors worked for this program: other programs of a busy machine do not count.
+/// Processor seconds of this program: other programs on a busy machine do not count.
 double busy_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 std::vector<std::string> words(const std::string& list)
@@ -108,7 +108,7 @@ private:
 
 constexpr const char* plain_name = "VPT plain";
 
-/// What the paths of one method brought: pixels of two halves that have nothing in common, and what they cost.
+/// The paths of one method: pixels in two independent halves, and the cost of the paths.
 class Picture {
 public:
     Picture(std::string name, std::shared_ptr<const MediumShells> shells, uint64_t seed, size_t pixels)
@@ -117,7 +117,7 @@ public:
         for (auto& half : halves_) half.resize(pixels);
     }
 
-    /// For so long, but until each half has two paths a pixel.
+    /// Adds paths for `seconds` of processor time; complete() then adds paths until each half has two a pixel.
     void add_paths(Scene& scene, double seconds)
     {
         scene.world.regions[0].shells = shells_;
@@ -151,7 +151,7 @@ public:
     double seconds_per_path() const { return seconds_ / static_cast<double>(paths_); }
     double mean(size_t half, size_t pixel) const { return halves_[half][pixel].mean(); }
     double mean(size_t pixel) const { return 0.5 * (mean(0, pixel) + mean(1, pixel)); }
-    /// Of one path of a pixel, as a half has it.
+    /// The variance of one path of a pixel, estimated from one half.
     double variance(size_t half, size_t pixel) const
     {
         const Estimate& e = halves_[half][pixel];
@@ -183,7 +183,7 @@ private:
     double seconds_ = 0;
 };
 
-/// Mean over pixels of a path's variance, over the square of the pixel.
+/// The mean over pixels of a path's variance divided by the square of the pixel.
 double variance(const Picture& picture, size_t half, const std::vector<double>& squares)
 {
     double sum = 0;
@@ -193,8 +193,8 @@ double variance(const Picture& picture, size_t half, const std::vector<double>& 
 
 void print_row(const std::vector<Picture>& pictures, const Picture& reference, size_t pixels)
 {
-    // Errors count by the mean of all methods: a square that has no part in the product that it divides, as far as may
-    // be.
+    // Errors are relative to the mean of all methods, so that the divisor depends as little as possible on the product
+    // that it divides.
     std::vector<double> squares(pixels, 0);
     double level = 0;
     for (size_t i = 0; i < pixels; ++i) {
@@ -273,20 +273,21 @@ int main(int argc, char** argv)
         for (const std::string& word : words(argument(4, "full,cosine,hg,interpolated,diffusion"))) {
             const std::optional<StfForm> form = stf_form_names.find(word);
             if (!form)
-                throw InputError("forms", word, "of " + fmt::format("{}", fmt::join(stf_form_names.words(), ", ")));
+                throw InputError("forms", word, "one of " + fmt::format("{}", fmt::join(stf_form_names.words(), ", ")));
             forms.push_back(*form);
         }
         const std::optional<Accuracy> accuracy = accuracy_names.find(argument(7, "standard"));
         if (!accuracy)
             throw InputError("accuracy", argument(7, ""),
-                             "of " + fmt::format("{}", fmt::join(accuracy_names.words(), ", ")));
+                             "one of " + fmt::format("{}", fmt::join(accuracy_names.words(), ", ")));
         StfCache cache(cache_folder(), stf_options(*accuracy));
         const auto phase = snow_phase();
         fmt::print("mean cosine of the phase function {:.4f}\n", phase->mean_cosine());
         Scene scene(argc > 8 ? read_closed_mesh(argv[8], "it is filled with a medium") : statue_mesh(),
                     static_cast<uint32_t>(std::atoi(argument(6, "64").c_str())));
-        fmt::print("{} pixels show it. Times are processor times of one thread; ~: less than two standard errors.\n",
-                   scene.pixels.size());
+        fmt::print(
+            "{} pixels show the object. Times are processor times of one thread; ~: less than two standard errors.\n",
+            scene.pixels.size());
         flush_subnormals();
         for (const std::string& length : words(argument(2, "10,30,100,300,1000"))) {
             for (const std::string& albedo : words(argument(3, "0.99,0.999,1"))) {

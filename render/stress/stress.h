@@ -7,14 +7,13 @@ namespace scree {
 
 struct StressOptions {
     bool quick = false; ///< a part of the cases, in under a minute
-    std::string only; ///< cases whose name, or that of their family, holds this; empty: all
+    std::string only; ///< only cases with this text in "family: case"; empty: all
 };
 
-/// Renders what tests the numbers to their limits: scenes that are scaled, moved and turned, grains and media at the
-/// ends of what can be asked for, paths of a million vertices, the white furnace. Seeds are fixed: the same program
-/// finds the same.
+/// Stress-tests the numerics by rendering: scaled, moved and turned scenes, grains and media with extreme parameters,
+/// paths of a million vertices, the white furnace. Seeds are fixed: the same program finds the same.
 ///
-/// Scenes are small ones in temporary files. Throws InputError where there is no room for them, and Cancelled.
+/// The scenes are small and in temporary files. Throws InputError if there is no room for them, and Cancelled.
 StressReport run_stress(const StressOptions& options, const Progress& progress);
 
 } // namespace scree

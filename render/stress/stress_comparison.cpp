@@ -9,9 +9,9 @@ namespace scree {
 
 namespace {
 
-constexpr double rounding = 2e-6; // relative: pixels that do not scatter differ by sums of floats
+constexpr double rounding = 2e-6; // relative: pixels without noise still differ by the rounding of float sums
 
-/// A mean and the variance of it.
+/// A mean and its variance.
 struct Mean {
     double value = 0, variance = 0;
 };
@@ -40,7 +40,7 @@ Mean mean_over(const PixelMean& of, int x0, int y0, int x1, int y1, int channel)
     return {sum.value / n, sum.variance / (n * n)};
 }
 
-/// samples: of a pixel, where a truth is known that so few may not have shown, of a radiance up to 1.
+/// samples: of a pixel, if b is a known truth; so few samples may have missed rare events of a radiance up to 1.
 StressFinding compare(const PixelMean& a, const PixelMean& b, int width, int height, int block, double bias,
                       double samples = std::numeric_limits<double>::infinity())
 {

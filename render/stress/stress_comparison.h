@@ -7,26 +7,28 @@
 
 namespace scree {
 
-/// |z| that one of `tests` normal variables exceeds with a probability of `level` (Sidak).
+/// The value that the largest |z| of `tests` standard normal variables exceeds with probability `level` (Sidak).
 double critical_z(double level, int tests);
 
-/// Chance that a comparison of pictures that are equal in the mean fails.
+/// Probability that a comparison fails though the pictures have equal means.
 inline constexpr double stress_level = 1e-4;
 
-/// Compares two independent pictures in the mean, whole and in squares of `block` pixels, channel by channel: the
-/// finding is the worst difference in standard errors. bias: relative difference that is allowed besides noise.
+/// Compares the means of two independent pictures, over the whole picture and over squares of `block` pixels a side,
+/// channel by channel: the finding is the worst difference in standard errors. bias: relative difference that is
+/// allowed in addition to noise.
 StressFinding compare_means(const Film& a, const Film& b, int block = 8, double bias = 0);
 
-/// The same against what every pixel should be, grey.
+/// The same against the true grey value of every pixel.
 StressFinding compare_truth(const Film& a, const std::vector<double>& truth, int block = 8, double bias = 0);
 
-/// What the whole picture lacks to 1 against what it should lack, where that is little; bias: relative to it.
+/// Compares 1 minus the mean of the whole picture with `loss`, its true value, which is small. bias: relative to
+/// `loss`.
 StressFinding compare_loss(const Film& a, double loss, double bias = 0);
 
-/// How many pixels have not the same bits.
+/// The number of pixels whose bits differ.
 StressFinding compare_bits(const Film& a, const Film& b);
 
-/// The largest difference of a pixel's channel from `truth`; allowed: as much.
+/// The largest difference of a pixel's channel from `truth`. allowed: the largest that passes.
 StressFinding compare_exactly(const Film& a, double truth, double allowed);
 
 } // namespace scree

@@ -1,4 +1,4 @@
-// The white furnace: lossless things in a surrounding of radiance 1 are invisible.
+// The white furnace: lossless objects in surroundings of radiance 1 are invisible.
 
 #include "render/stress/stress_furnace.h"
 
@@ -10,7 +10,7 @@ namespace scree {
 
 namespace {
 
-/// White from everywhere as two halves of a sky that are sampled, so that what scatters must weigh them right.
+/// White surroundings made of two half skies that are sampled, so that scattering must weight light samples correctly.
 StressFinding sampled_furnace(StressScene scene, const StressView& view, const Progress& progress)
 {
     scene.description.lights.clear();
@@ -72,8 +72,8 @@ StressFinding furnace(StressScene scene, const StressView& view, const Progress&
 
 void add_furnace_cases(StressRun& run)
 {
-    run.begin("white furnace", "every pixel of 2,400 lossless grains in a surrounding of 1 with 1",
-              "1e-5: the rounding of some 100 products of floats");
+    run.begin("white furnace", "every pixel of 2,400 lossless grains in surroundings of radiance 1, compared with 1",
+              "1e-5: the rounding of some 100 float products");
     for (const IntegratorKind integrator : all_kinds) {
         for (const Kind& kind : kinds()) {
             const bool quick = kind.mesh.empty() && integrator == IntegratorKind::ept;
@@ -85,8 +85,8 @@ void add_furnace_cases(StressRun& run)
         }
     }
 
-    run.begin("white furnace, indices", "the same for indices of refraction and roughnesses at their ends",
-              "1e-5: the rounding of some 100 products of floats");
+    run.begin("white furnace, indices", "the same for extreme indices of refraction and roughnesses",
+              "1e-5: the rounding of some 100 float products");
     for (const double ior : {0.1, 1.0001, 4.0, 10.0}) {
         for (const double roughness : {0.0, 0.05, 1.0}) {
             run.add(fmt::format("index {}, roughness {}, ept", ior, roughness),
@@ -103,7 +103,7 @@ void add_furnace_cases(StressRun& run)
         }
     }
 
-    run.begin("white furnace, sampled", "the same with a surrounding that is sampled, in the mean", "noise");
+    run.begin("white furnace, sampled", "the same with surroundings that are sampled; compares means", "noise");
     for (const IntegratorKind integrator : all_kinds) {
         for (const Kind& kind : kinds()) {
             const bool quick = integrator == IntegratorKind::ept && kind.name == "rough glass spheres";

@@ -1,4 +1,4 @@
-// One sphere of glass, whose radiance is known: every index and absorption.
+// One glass sphere, whose radiance is known, with several indices and absorptions.
 
 #include "render/stress/stress_run.h"
 #include "render/stress/stress_scenes.h"
@@ -20,8 +20,8 @@ double reflectance(double cosine, double ior)
     return 0.5 * (s * s + p * p);
 }
 
-/// A ray that meets a sphere of glass of radius 1 at a distance b from its middle, in a surrounding of 1: R + (1 - R)^2
-/// T / (1 - R T), as every reflection within is at the same angle and T is the transmittance of the same chord.
+/// The radiance of a ray that passes the middle of a glass sphere of radius 1 at distance b, in surroundings of 1:
+/// R + (1 - R)^2 T / (1 - R T). All inner reflections have the same angle, and all chords the same transmittance T.
 double sphere_radiance(double b, double ior, double absorption)
 {
     if (b >= 1) return 1;
@@ -31,9 +31,11 @@ double sphere_radiance(double b, double ior, double absorption)
     return r + (1 - r) * (1 - r) * t / (1 - r * t);
 }
 
-/// A ray at a distance b from the middle of a lossless sphere of glass of radius 1, that of which leaves within `half`
-/// of the ray's own direction: it turns by pi - 2 i where it is reflected, and by 2 i - 2 k t + (k - 1) pi where it
-/// leaves at its k-th meeting from within.
+/// The part of a ray's light that leaves a lossless glass sphere of radius 1 within an angle `half` of the ray's own
+/// direction; b: distance of the ray from the sphere's middle.
+///
+/// The ray turns by pi - 2 i where it is reflected outside, and by 2 i - 2 k t + (k - 1) pi where it leaves at its k-th
+/// hit from inside.
 double light_behind(double b, double ior, double half)
 {
     if (b >= 1) return 1;
@@ -47,8 +49,8 @@ double light_behind(double b, double ior, double half)
     return sum;
 }
 
-/// The sphere before a disc of light of radiance 1, behind it: a ring of it is dark from where it turns light by more
-/// than the disc is wide, and nothing is where it does not refract.
+/// The sphere in front of a disc light of radiance 1: the sphere shows a dark ring where it turns rays by more than the
+/// angular radius of the disc. A sphere that does not refract has no such ring.
 StressFinding before_a_disc(double ior, double edge, const StressView& view, double bias, const Progress& progress)
 {
     const double half = 2 * std::abs(std::asin(edge) - std::asin(edge / ior));
@@ -69,7 +71,7 @@ StressFinding before_a_disc(double ior, double edge, const StressView& view, dou
     StressFinding finding = compare_truth(picture.film, seen(ior), 4, bias);
     finding.count(picture.statistics);
     finding.remark +=
-        fmt::format("; as of index 1: {:.3g} sigma", compare_truth(picture.film, seen(1), 4, bias).deviation);
+        fmt::format("; against index 1: {:.3g} sigma", compare_truth(picture.film, seen(1), 4, bias).deviation);
     return finding;
 }
 
@@ -77,8 +79,8 @@ StressFinding before_a_disc(double ior, double edge, const StressView& view, dou
 
 void add_glass_cases(StressRun& run)
 {
-    run.begin("glass", "a sphere in a surrounding of 1 with Fresnel's series, pixel by pixel",
-              "noise; 0.1 % for the sum that stands for the integral over a pixel, and for the proxy's records 2 %");
+    run.begin("glass", "a sphere in surroundings of radiance 1, compared with Fresnel's series, pixel by pixel",
+              "noise; 0.1 % because a sum replaces the integral over a pixel, or 2 % for the proxy's records");
     constexpr int pixels = 16;
     for (const IntegratorKind kind : {IntegratorKind::ept, IntegratorKind::ppt}) {
         for (const double ior : {1.0001, 1.5, 4.0}) {
@@ -105,14 +107,16 @@ void add_glass_cases(StressRun& run)
         }
     }
 
-    run.begin("glass, refraction",
-              "a sphere before a disc of light, of which Snell's law makes a part of it dark, pixel by pixel",
-              "noise; 0.2 % for the sum that stands for the integral over a pixel");
+    run.begin(
+        "glass, refraction",
+        "a sphere in front of a disc light, where Snell's law makes a part of the sphere dark, compared with this "
+        "law, pixel by pixel",
+        "noise; 0.2 % because a sum replaces the integral over a pixel");
     for (const double ior : {1.0001, 1.5, 4.0}) {
         for (const IntegratorKind kind : {IntegratorKind::ept, IntegratorKind::ppt}) {
             const bool quick = kind == IntegratorKind::ept;
             if (!quick && ior < 1.01)
-                continue; // directions in a proxy's records are off by up to 8e-5, as much as the sphere turns light
+                continue; // directions in a proxy's records are off by up to 8e-5, as much as the sphere turns rays
             run.add(fmt::format("index {}, {}", ior, name_of(kind)), quick ? StressExtent::quick : StressExtent::full,
                     [&] {
                         return before_a_disc(ior, 0.7, {.kind = kind, .accuracy = Accuracy::standard, .spp = 2048},

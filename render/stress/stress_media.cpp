@@ -1,4 +1,4 @@
-// Media at the ends of what can be asked for: hardly any absorption, scattering straight on or straight back, a million
+// Media with extreme parameters: hardly any absorption, scattering almost straight forward or straight back, a million
 // mean free paths.
 
 #include "render/stress/stress_furnace.h"
@@ -12,7 +12,7 @@ namespace {
 
 constexpr IntegratorKind medium_kinds[] = {IntegratorKind::vpt, IntegratorKind::stf};
 
-/// A cube of edge 2 from above; sees a narrow square in the middle of its upper face.
+/// A cube of edge 2 from above: the camera sees a narrow square in the middle of its upper face.
 StressScene cube_of_medium(double optical_radius, double albedo, double g)
 {
     StressScene scene = scene_from_above(8, 0.125, 3);
@@ -22,8 +22,9 @@ StressScene cube_of_medium(double optical_radius, double albedo, double g)
     return scene;
 }
 
-/// What an isotropic half-space of an albedo reflects of diffuse light straight up: 1 - sqrt(1 - albedo) H(1), H by
-/// iteration of its integral equation (Chandrasekhar 1960, chapter V, equation 12).
+/// The radiance that an isotropic half-space reflects straight up under diffuse light of radiance 1:
+/// 1 - sqrt(1 - albedo) H(1), with H by iteration of its integral equation (Chandrasekhar 1960, chapter V, equation
+/// 12).
 double half_space_radiance(double albedo)
 {
     constexpr int n = 400;
@@ -44,7 +45,7 @@ double half_space_radiance(double albedo)
         std::vector<double> better(n);
         change = 0;
         for (size_t i = 0; i < n; ++i) {
-            better[i] = 0.5 * (h[i] + next(cosine[i])); // the mean of two steps, which converges where steps alone sway
+            better[i] = 0.5 * (h[i] + next(cosine[i])); // the mean of two steps converges where single steps oscillate
             change = std::max(change, std::abs(better[i] - h[i]));
         }
         h = better;
@@ -60,8 +61,8 @@ Placing askew()
     return placing;
 }
 
-/// The isotropic half-space: what it reflects, or what it absorbs where that is less. Shells may be off by 0.3 % of
-/// that.
+/// Compares the light that the isotropic half-space reflects, or the light it absorbs where that is less. Shells may be
+/// off by 0.3 % of the reflected light, and by at most 3 % of the absorbed light.
 StressFinding against_half_space(double optical_radius, double albedo, const StressView& view, const Progress& progress,
                                  const Placing& placing = {})
 {
@@ -74,15 +75,14 @@ StressFinding against_half_space(double optical_radius, double albedo, const Str
             : compare_loss(picture.film, 1 - radiance, std::min(0.03, bias * radiance / (1 - radiance)));
     finding.count(picture.statistics);
     finding.remark += fmt::format("; {:.3g} vertices a path, longest {} segments", finding.length(), finding.longest);
-    finding.may_leak = std::min(
-        2e-4,
-        0x1p-51 *
-            optical_radius); // of places within a rounding of a double from the face, which may come to lie behind it
+    finding.may_leak =
+        std::min(2e-4,
+                 0x1p-51 * optical_radius); // places within a double's rounding of the face may end up behind it
     return finding;
 }
 
-/// The middle of a cube of optical radius 1000, scattering by scattering, with next to no loss: a path of n events
-/// brings (1 - loss)^n, of which n is counted, so that there is no noise.
+/// The middle of a cube of optical radius 1000, event by event, with almost no loss: a path of n events brings
+/// (1 - loss)^n. Counting n leaves no noise.
 StressFinding counted_loss(double loss, const Progress& progress)
 {
     StressScene scene = empty_scene(4, 4, V3d(0.001, 0.002, 0.003), V3d(1, 0.3, 0.2), 35);
@@ -101,15 +101,15 @@ StressFinding counted_loss(double loss, const Progress& progress)
     finding.deviation = std::abs(lost / right - 1);
     finding.allowed = finding.sees = finding.must_see = 0.05;
     finding.least_length = 3e5;
-    finding.remark = fmt::format("lacks {:.4g} to 1, {:.4g} is right", lost, right);
+    finding.remark = fmt::format("1 minus the mean is {:.4g}, expected {:.4g}", lost, right);
     return finding;
 }
 
-/// A ball of isotropic medium seen from its middle, in a surrounding of 1.
+/// A ball of isotropic medium seen from its middle, in surroundings of 1.
 ///
-/// Diffusion with D = 1/3: u = sinh(k r) / r but for a factor, k^2 = 3 (1 - albedo), r in mean free paths, where u +
-/// 0.7104 du/dr = 1 at the surface (Milne), as light comes in at 1 from everywhere; wrong by O(1 - albedo) and
-/// O(radius^-2).
+/// Diffusion with D = 1/3: u is proportional to sinh(k r) / r, with k^2 = 3 (1 - albedo) and r in mean free paths. At
+/// the surface u + 0.7104 du/dr = 1 (Milne), because light of radiance 1 comes in from everywhere. The error is
+/// O(1 - albedo) and O(radius^-2).
 StressFinding from_the_middle(double optical_radius, double loss, int pixels, const StressView& view, double bias,
                               const Progress& progress)
 {
@@ -120,8 +120,7 @@ StressFinding from_the_middle(double optical_radius, double loss, int pixels, co
     double volume = 0;
     for (const auto& [a, b, c] : ball.triangles)
         volume += ball.positions[a].dot(ball.positions[b].cross(ball.positions[c])) / 6;
-    const double stretch =
-        std::cbrt(4 * pi / 3 / std::abs(volume)); // what counts is the mean of the radius over all directions
+    const double stretch = std::cbrt(4 * pi / 3 / std::abs(volume)); // the mean radius over all directions decides
     for (V3d& p : ball.positions) p *= stretch;
     scene.meshes["ball.obj"] = ball;
     add_medium(scene, "ball.obj", optical_radius, Weight(1 - loss), 0.0);
@@ -131,7 +130,7 @@ StressFinding from_the_middle(double optical_radius, double loss, int pixels, co
         compare_truth(picture.film, std::vector<double>(picture.film.pixels().size(), radiance), pixels, bias);
     finding.count(picture.statistics);
     finding.remark +=
-        fmt::format("; {:.5g} is right, 1 without the loss; {:.3g} vertices a path", radiance, finding.length());
+        fmt::format("; expected {:.5g}, without the loss 1; {:.3g} vertices a path", radiance, finding.length());
     return finding;
 }
 
@@ -150,7 +149,7 @@ StressFinding two_ways(const StressScene& scene, const StressView& one, const St
 
 void add_medium_cases(StressRun& run)
 {
-    run.begin("media, furnace", "a lossless cube of medium in a surrounding of 1 with 1",
+    run.begin("media, furnace", "a lossless cube of medium in surroundings of radiance 1, compared with 1",
               "1e-6: a weight that no event changes is not rounded");
     for (const IntegratorKind kind : medium_kinds) {
         for (const double g : {0.0, 0.999, -0.999}) {
@@ -162,14 +161,15 @@ void add_medium_cases(StressRun& run)
         }
     }
 
-    run.begin("media, thick",
-              "a cube of optical radius 1e6 with the isotropic half-space (Chandrasekhar's H): the light it sends "
-              "back, or if that is more than half, what it absorbs",
-              "noise; shells 0.3 % of the light, and at most 3 % of what is absorbed");
+    run.begin(
+        "media, thick",
+        "a cube of optical radius 1e6, compared with the isotropic half-space (Chandrasekhar's H): the light that "
+        "it reflects, or, if that is more than half, the light that it absorbs",
+        "noise; for shells 0.3 % of the reflected light, and at most 3 % of the absorbed light");
     struct Thick {
         double albedo;
-        uint32_t steps, shells; // samples a pixel of 64; none where scattering by scattering takes too long
-        double must_see; // of what is absorbed, where that is little: 10 % of it at 0.9999 is 0.3 % of the light
+        uint32_t steps, shells; // samples for each of 64 pixels; steps is 0 where single events take too long
+        double must_see; // of the absorbed light where that is little: at 0.9999, 10 % of it is 0.3 % of the light
     };
     for (const Thick& t : {Thick{0.5, 4096, 4096, 0.03},
                            {0.9, 4096, 4096, 0.03},
@@ -190,8 +190,8 @@ void add_medium_cases(StressRun& run)
     }
 
     run.begin("media, hardly a loss",
-              "a ball of medium from its middle with diffusion, where about four in ten paths are lost",
-              "noise; shells 1 %");
+              "a ball of medium seen from its middle, where about four in ten paths are lost, compared with diffusion",
+              "noise; for shells 1 %");
     run.add("albedo 1 - 1e-12, events counted, vpt", StressExtent::full,
             [&] { return counted_loss(1e-12, run.progress()); });
     run.add("albedo 1 - 4e-4, optical radius 50, vpt", StressExtent::full, [&] {
@@ -200,7 +200,7 @@ void add_medium_cases(StressRun& run)
     struct Deep {
         double radius, loss;
         int pixels;
-        uint32_t spp; // the largest shells are some 1000 mean free paths: a path of the last one goes through 700,000
+        uint32_t spp; // the largest shells are some 1000 mean free paths: a path of the last case crosses 700,000
         double must_see;
     };
     for (const Deep& deep : {Deep{50, 4e-4, 8, 1024, 0.03},
@@ -219,8 +219,9 @@ void add_medium_cases(StressRun& run)
     }
 
     run.begin("media, forward and back",
-              "a ball of optical radius 16 by scatterings, by shells and by scattered light alone, in the mean",
-              "noise; shells 1 %");
+              "a ball of optical radius 16 rendered event by event, with shells, and without sampling lights; compares "
+              "means",
+              "noise; for shells 1 %");
     for (const double g : {0.999, -0.999, 0.9}) {
         const StressScene ball = ball_of_medium(16, Weight(0.99), g);
         const StressView stepwise{.kind = IntegratorKind::vpt, .spp = 512},
@@ -232,7 +233,7 @@ void add_medium_cases(StressRun& run)
                 [&] { return two_ways(ball, stepwise, scattered, 0, run.progress()); });
     }
 
-    run.begin("media, ends", "extinctions and colours at their ends with what they must be",
+    run.begin("media, ends", "extreme extinctions and colours, compared with known values",
               "noise; 1e-5 where light only passes or is only scattered");
     for (const IntegratorKind kind : medium_kinds) {
         const StressView view{.kind = kind, .accuracy = Accuracy::draft, .spp = 1024};
@@ -256,10 +257,10 @@ void add_medium_cases(StressRun& run)
                 const StressView stepwise{.kind = IntegratorKind::vpt, .spp = 2048},
                     shells{.kind = kind, .accuracy = Accuracy::draft, .spp = 2048, .seed = 2};
                 StressFinding finding = two_ways(cube, stepwise, shells, 0.01, run.progress());
-                finding.must_see = 0.06; // most paths end within
+                finding.must_see = 0.06; // most paths end inside
                 return finding;
             });
-        // Of a channel that scatters much less than that a path was made for little is seen: it costs many paths.
+        // A channel that scatters much less than the channel a path was sampled for is noisy: it needs many paths.
         struct Coloured {
             Color sigma;
             uint32_t spp;

@@ -1,5 +1,5 @@
-// Packings without a grain, with one, and as full as they get; and paths of a million vertices through grains, media
-// and a white room.
+// Packings with no grain, with one, and as dense as possible; and paths of a million vertices through grains, media and
+// a white room.
 
 #include "render/stress/stress_furnace.h"
 #include "render/stress/stress_scenes.h"
@@ -27,7 +27,7 @@ StressScene fcc(const Material& material, int cells)
     return scene;
 }
 
-/// Spheres that dumps should not hold and do: twice the same, one within another, touching from within.
+/// Spheres that dumps should not contain but do: duplicates, one inside another, touching from inside.
 StressScene odd_grains(const Material& material)
 {
     StressScene scene = few_grains(material, 0);
@@ -43,14 +43,14 @@ StressScene odd_grains(const Material& material)
     return scene;
 }
 
-/// Length of a ray within a sphere.
+/// Length of a ray inside a sphere.
 double chord(const StressGrain& grain, const V3d& o, const V3d& d)
 {
     const V3d to = grain.center - o;
     return 2 * safe_sqrt(grain.radius * grain.radius - (to - to.dot(d) * d).length2());
 }
 
-/// The same within a cube whose corners are on the sphere.
+/// The same for a cube whose corners are on the sphere.
 double cube_chord(const StressGrain& grain, const V3d& o, const V3d& d)
 {
     Placing back;
@@ -66,8 +66,8 @@ double cube_chord(const StressGrain& grain, const V3d& o, const V3d& d)
     return std::max(0.0, leave - enter);
 }
 
-/// 108 grains on a close lattice that absorb and do not refract, seen askew before a surrounding of 1: the light that
-/// straight lines leave.
+/// Compares the light along straight lines through 108 grains that absorb and do not refract, on a close-packed
+/// lattice, seen at an angle in surroundings of 1.
 StressFinding straight_through(const Material& material, bool cubes, const StressView& view, const Progress& progress)
 {
     StressScene scene = empty_scene(16, 16, V3d(-7.3, -9.1, 12.7), V3d(0.1, 0.2, -0.3), 35);
@@ -103,9 +103,11 @@ StressScene from_within(StressScene scene, int width, int height)
     return scene;
 }
 
-/// A white ball from within, with a hole of 1 / mean of its surface. Matte reflection in a ball goes to all of it
-/// alike, so that every segment but the first leaves with that chance: paths have 1 + mean of them, with a standard
-/// deviation of about the mean.
+/// A white ball seen from inside, with a hole of 1 / mean of its surface.
+///
+/// Diffuse reflection in a ball reaches its whole surface uniformly, so every segment but the first leaves through the
+/// hole with a probability of 1 / mean. Paths have 1 + mean segments on average, with a standard deviation of about the
+/// mean.
 StressFinding room(double mean, int pixels, uint32_t spp, const Progress& progress)
 {
     TriangleMesh ball = ball_mesh(1, 2);
@@ -115,7 +117,7 @@ StressFinding room(double mean, int pixels, uint32_t spp, const Progress& progre
     };
     double area = 0;
     for (const std::array<uint32_t, 3>& triangle : ball.triangles) area += area_of(triangle);
-    const std::array<uint32_t, 3> last = ball.triangles.back(); // the hole takes its corner a
+    const std::array<uint32_t, 3> last = ball.triangles.back(); // the hole is at its corner a
     const double part = std::sqrt(area / (mean * area_of(last)));
     ball.triangles.pop_back();
     const V3d a = ball.positions[last[0]], b = ball.positions[last[1]], c = ball.positions[last[2]];
@@ -142,8 +144,8 @@ StressFinding room(double mean, int pixels, uint32_t spp, const Progress& progre
 
 void add_packing_cases(StressRun& run)
 {
-    run.begin("packings", "lossless spheres in a surrounding of 1 with 1",
-              "1e-5: the rounding of some 100 products of floats");
+    run.begin("packings", "lossless spheres in surroundings of radiance 1, compared with 1",
+              "1e-5: the rounding of some 100 float products");
     for (const IntegratorKind kind : all_kinds) {
         const StressView view{.kind = kind, .accuracy = Accuracy::draft, .spp = 32};
         const StressExtent extent = kind == IntegratorKind::ept ? StressExtent::quick : StressExtent::full;
@@ -162,9 +164,9 @@ void add_packing_cases(StressRun& run)
     }
 
     run.begin("packings, straight",
-              "the light that 108 touching spheres, or cubes within them, leave along straight lines with sums of "
-              "chords, pixel by pixel",
-              "noise; 0.2 % for the sum that stands for the integral over a pixel");
+              "the light that passes 108 touching spheres, or cubes inside them, along straight lines, compared with "
+              "sums of chords, pixel by pixel",
+              "noise; 0.2 % because a sum replaces the integral over a pixel");
     for (const IntegratorKind kind : {IntegratorKind::ept, IntegratorKind::automatic}) {
         const StressView view{.kind = kind, .accuracy = Accuracy::standard, .spp = 1024};
         for (const bool cubes : {false, true}) {
@@ -180,7 +182,7 @@ void add_packing_cases(StressRun& run)
 
 void add_long_path_cases(StressRun& run)
 {
-    run.begin("long paths", "lossless things seen from deep within, in a surrounding of 1, with 1",
+    run.begin("long paths", "lossless objects seen from deep inside, in surroundings of radiance 1, compared with 1",
               "1e-5: a weight that no event changes is not rounded");
     for (const IntegratorKind kind : {IntegratorKind::vpt, IntegratorKind::stf}) {
         run.add("the middle of a cube of optical radius 1000, " + name_of(kind), StressExtent::full, [&] {
@@ -190,7 +192,7 @@ void add_long_path_cases(StressRun& run)
             StressFinding finding =
                 furnace(scene, {.kind = kind, .accuracy = Accuracy::draft, .spp = 2}, run.progress());
             finding.least_length =
-                kind == IntegratorKind::vpt ? 3e5 : 0; // 0.6745 r^2 of scatterings; shells pass many in one step
+                kind == IntegratorKind::vpt ? 3e5 : 0; // 0.6745 r^2 scatterings; shells skip many in one step
             return finding;
         });
     }
@@ -200,7 +202,7 @@ void add_long_path_cases(StressRun& run)
         Material material;
         double radius;
     };
-    // Light passes several spheres of glass before it is turned, so that there must be more of them for as long a way.
+    // Light crosses several glass spheres before it loses its direction, so that equally long paths need more of them.
     for (const auto& [grains, number, material, radius] :
          {Deep{"spheres of glass", "10^11", glass_material(1.5), 0.0002},
           Deep{"spheres of rough glass", "10^10", glass_material(1.5, 0.5), 0.0005},
@@ -210,13 +212,15 @@ void add_long_path_cases(StressRun& run)
                 const StressScene scene = from_within(filled_scene(material, radius, run.progress()), 4, 2);
                 StressFinding finding =
                     furnace(scene, {.kind = kind, .accuracy = Accuracy::draft, .spp = 1}, run.progress());
-                finding.least_length = kind == IntegratorKind::ept ? 2e5 : 1e5; // of a grain a proxy makes one vertex
+                finding.least_length =
+                    kind == IntegratorKind::ept ? 2e5 : 1e5; // a proxy makes one vertex for each grain
                 return finding;
             });
         }
     }
     run.begin("long paths, lengths",
-              "the mean length of paths in a white ball with a hole with 1 + surface / hole; and the furnace", "noise");
+              "the mean length of paths in a white ball with a hole, compared with 1 + surface / hole; and the furnace",
+              "noise");
     for (const auto& [mean, pixels, spp, must_see] :
          {std::tuple(1e3, 16, 32u, 0.07), std::tuple(1e4, 8, 32u, 0.15), std::tuple(1e6, 4, 1u, 1.5)}) {
         run.add(fmt::format("a hole of {:g} of the surface, ept", 1 / mean),

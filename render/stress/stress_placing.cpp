@@ -1,4 +1,4 @@
-// Scenes that are scaled, moved and turned as a whole: light goes as before.
+// Scenes that are scaled, moved and turned as a whole: their pictures must not change.
 
 #include "render/stress/stress_furnace.h"
 #include "render/stress/stress_scenes.h"
@@ -9,13 +9,13 @@ namespace scree {
 
 namespace {
 
-/// Samples of pictures that are compared in the mean: fewer where a medium stands for grains, which takes longer.
+/// Samples a pixel where means are compared: fewer where a medium replaces grains, because that takes longer.
 uint32_t mean_spp(IntegratorKind kind)
 {
     return kind == IntegratorKind::ept || kind == IntegratorKind::ppt ? 1024 : 384;
 }
 
-/// What a scene is called, and how it is made.
+/// A scene and its name.
 struct NamedScene {
     std::string name;
     StressScene scene;
@@ -27,7 +27,7 @@ StressScene lit(StressScene scene)
     return scene;
 }
 
-/// What an integrator is tried on: it must have something to do there.
+/// The scene on which an integrator is tested: the integrator must have something to do there.
 NamedScene scene_for(IntegratorKind kind, const Progress& progress)
 {
     if (kind == IntegratorKind::ept || kind == IntegratorKind::ppt) return {"48 mixed grains", mixed_scene(progress)};
@@ -62,8 +62,8 @@ StressFinding same_bits(const StressScene& scene, const std::vector<Placing>& pl
     return worst;
 }
 
-/// The placed scene against the scene as it is, with other random numbers; and the scene against itself, to show what
-/// the test makes of no difference.
+/// Compares the placed scene with the original, with different random numbers; and the original with itself, to show
+/// the result of the test without a difference.
 StressFinding same_in_the_mean(const StressScene& scene, const Placing& placing, StressView view, double bias,
                                const Progress& progress)
 {
@@ -75,7 +75,7 @@ StressFinding same_in_the_mean(const StressScene& scene, const Placing& placing,
     const StressPicture placed = StressStage(scene, placing, view, progress).render(view, progress);
     StressFinding finding = compare_means(placed.film, first.film, 6, bias);
     const StressFinding none = compare_means(control.film, first.film, 6);
-    finding.remark += fmt::format("; of no difference {:.2g} sigma", none.deviation);
+    finding.remark += fmt::format("; the scene with itself {:.2g} sigma", none.deviation);
     for (const StressPicture* picture : {&first, &control, &placed}) finding.count(picture->statistics);
     return finding;
 }
@@ -111,7 +111,7 @@ StressExtent extent_of(IntegratorKind kind)
 
 void add_scale_cases(StressRun& run)
 {
-    run.begin("scale", "the scene times 2^-40 and 2^40 with the scene, bit by bit",
+    run.begin("scale", "the scene scaled by 2^-40 and 2^40, compared with the original, bit by bit",
               "nothing: render coordinates are the same numbers");
     const std::vector<Placing> placings{scaled(-40), scaled(40)};
     const auto add = [&](const NamedScene& named, IntegratorKind kind, StressExtent extent) {
@@ -128,8 +128,9 @@ void add_scale_cases(StressRun& run)
 
 void add_place_cases(StressRun& run)
 {
-    run.begin("place, exact", "the scene moved by about 1e7, coordinates still exact, bit by bit",
-              "nothing: double holds them, and the scene is centred before it becomes float");
+    run.begin("place, exact",
+              "the scene moved by about 1e7 with exact coordinates, compared with the original, bit by bit",
+              "nothing: double holds the coordinates, and the scene is centred before they become float");
     const V3d exact(1e7, -1e7, 2e7), inexact(1e7 + 1 / 3.0, -1e7 - 0.1, 2e7 + 0.7);
     const auto add = [&](const NamedScene& named, IntegratorKind kind) {
         run.add(fmt::format("{}, {}", named.name, name_of(kind)), extent_of(kind), [&] {
@@ -140,7 +141,7 @@ void add_place_cases(StressRun& run)
     for (const IntegratorKind kind : all_kinds) add(scene_for(kind, run.progress()), kind);
     for (const IntegratorKind kind : {IntegratorKind::vpt, IntegratorKind::stf}) add(ball(), kind);
     for (const IntegratorKind kind : {IntegratorKind::ept, IntegratorKind::ppt}) add(filled_cube(run.progress()), kind);
-    run.begin("place", "the scene moved by 1e7 of its units against the scene, in the mean",
+    run.begin("place", "the scene moved by 1e7 of its units, compared with the original in the mean",
               "noise: coordinates near 1e7 keep 2^-29 of a unit in a dump and a scene");
     for (const IntegratorKind kind : all_kinds) {
         const NamedScene named = scene_for(kind, run.progress());
@@ -165,8 +166,8 @@ void add_place_cases(StressRun& run)
 
 void add_turn_cases(StressRun& run)
 {
-    run.begin("turn", "the scene turned with its camera, grains and lights against the scene, in the mean",
-              "noise; where a medium stands for grains also 0.5 %, as its hull is found on a grid");
+    run.begin("turn", "the scene turned with its camera, grains and lights, compared with the original in the mean",
+              "noise; where a medium replaces grains also 0.5 %, because its hull is found on a grid");
     for (const IntegratorKind kind : all_kinds) {
         const NamedScene named = scene_for(kind, run.progress());
         const bool has_hull = kind != IntegratorKind::ept && kind != IntegratorKind::ppt;

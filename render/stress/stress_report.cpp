@@ -44,7 +44,7 @@ bool StressReport::passed() const
 
 namespace {
 
-/// The worst of a family, for a row of a table.
+/// The worst case of a family, as a line of the table.
 std::string family_text(const StressFamily& family)
 {
     const StressFinding* worst = nullptr;
@@ -83,7 +83,7 @@ std::string stress_text(const StressReport& report)
             if (f.sees > f.must_see) text += fmt::format("      too noisy: must see {:.2g} %\n", 100 * f.must_see);
             if (f.leaks > 0) text += fmt::format("      {} rays lost between triangles\n", f.leaks);
             if (f.length() < f.least_length)
-                text += fmt::format("      paths of {:.3g} vertices in the mean, of {:.3g} expected at least\n",
+                text += fmt::format("      paths have {:.3g} vertices on average, at least {:.3g} are expected\n",
                                     f.length(), f.least_length);
             if (f.stopped > 0) text += fmt::format("      {} paths did not end in time\n", f.stopped);
             if (!f.remark.empty()) text += "      " + f.remark + "\n";

@@ -15,18 +15,18 @@ struct StressFinding {
     double allowed = 0;
     std::string unit; ///< of both: "sigma", "of 1", "pixels" ...
     double sees = 0; ///< least relative deviation of the picture's mean that the case finds nine times in ten; 0: any
-    double must_see = 0.03; ///< a case that sees only more than this is too noisy to pass
+    double must_see = 0.03; ///< a case is too noisy to pass if its `sees` is larger
     std::string remark; ///< where, and what else is worth knowing
     uint64_t paths = 0, segments = 0, events = 0, shells = 0, non_finite = 0;
     uint64_t leaks = 0; ///< rays lost between two triangles
-    double may_leak = 0; ///< of all paths
+    double may_leak = 0; ///< part of all paths that may be lost this way
     uint64_t stopped = 0; ///< paths given up as time ran out
-    double least_length = 0; ///< that paths must have in the mean, for the case to be about long ones
+    double least_length = 0; ///< mean length that paths must have, so that a case really tests long paths
     uint64_t longest = 0; ///< vertices of the longest path: segments, and events in media where they count
 
-    /// Takes over what a render counted.
+    /// Adds the counts of a render.
     void count(const RenderStatistics& statistics);
-    /// Segments, and events and shells in media, of a path in the mean.
+    /// Mean number of segments, medium events and shells of a path.
     double length() const;
     bool passed() const;
 };
@@ -35,7 +35,7 @@ struct StressCase {
     std::string name;
     StressFinding finding;
     double seconds = 0;
-    std::string error; ///< why it could not be done; else empty
+    std::string error; ///< why the case could not run; else empty
 
     bool passed() const { return error.empty() && finding.passed(); }
 };
@@ -53,7 +53,7 @@ struct StressReport {
     bool passed() const;
 };
 
-/// A table for people: a line a case, and below it what went wrong.
+/// A table for people: a line for each case, and below it what went wrong.
 std::string stress_text(const StressReport& report);
 nlohmann::json stress_json(const StressReport& report);
 

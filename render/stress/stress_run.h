@@ -15,9 +15,9 @@ class StressRun {
 public:
     StressRun(const StressOptions& options, const Progress& progress) : options_(options), progress_(progress) {}
 
-    /// What the cases that follow belong to.
+    /// Begins the family of the cases that follow.
     void begin(const std::string& name, const std::string& compared, const std::string& why);
-    /// Does the case if it is asked for; an error of it is kept as its result. Throws Cancelled.
+    /// Runs the case if it is asked for; an InputError is kept as its result. Throws Cancelled.
     void add(const std::string& name, StressExtent extent, const std::function<StressFinding()>& find);
 
     /// What cases may show and stop on; their own stages are not shown.

@@ -162,7 +162,7 @@ std::string dump_text(const StressScene& scene, const Placing& placing)
 
 V3d Placing::direction(const V3d& v) const
 {
-    if (rotation.v == V3d(0)) return v; // to the bit
+    if (rotation.v == V3d(0)) return v; // exact
     const V3d across = rotation.v.cross(v);
     return v + 2.0 * (rotation.r * across + rotation.v.cross(across));
 }

@@ -13,7 +13,7 @@
 
 namespace scree {
 
-/// A row of the dump of a stress scene; type: place of its grain type in the list.
+/// A row of the dump of a stress scene; type: index of its grain type.
 struct StressGrain {
     V3d center;
     double radius = 1;
@@ -21,16 +21,16 @@ struct StressGrain {
     Imath::Quatd orientation{1, 0, 0, 0};
 };
 
-/// A scene as a user would write it, before it is put anywhere: paths in `description` are names of `meshes`.
+/// A scene as a user would write it, before it is placed: paths in `description` are names in `meshes`.
 struct StressScene {
     SceneDescription description; ///< without assembly
     std::map<std::string, TriangleMesh> meshes;
     std::vector<StressGrain> grains; ///< written as a LAMMPS dump
-    bool has_dump = false; ///< write the dump though it has no grain
+    bool has_dump = false; ///< write the dump even if it has no grain
 
-    std::shared_ptr<const PackingTile> tile; ///< with it grains are a fill of `filled`,
-    std::string filled;
-    double fill_radius = 0; ///< of this mean radius
+    std::shared_ptr<const PackingTile> tile; ///< if set, the grains are a fill made of it
+    std::string filled; ///< name of the mesh that the fill fills
+    double fill_radius = 0; ///< mean radius of the fill
 };
 
 /// Where a scene is put: turned, then scaled, then moved.
@@ -50,10 +50,9 @@ struct Placing {
 std::filesystem::path write_stress_scene(const StressScene& scene, const Placing& placing,
                                          const std::filesystem::path& folder);
 
-/// Spheres of radius 1 of a random packing, `copies`^3 copies of a periodic cube of `count`, around the origin.
+/// A random packing of spheres of radius 1 around the origin: `copies`^3 copies of a periodic cube of `count` spheres.
 ///
-/// fraction: of the volume, up to 0.6. Coordinates are multiples of 2^-20, so that they can be moved by 1e7 without
-/// loss.
+/// fraction: the pack rate, up to 0.6. Coordinates are multiples of 2^-20, so that moving them by 1e7 loses nothing.
 std::vector<V3d> packed_spheres(double fraction, uint64_t count, int copies, const Progress& progress);
 /// Touching spheres of radius 1 on a face-centred cubic lattice, f = 0.74: `cells`^3 cubes of four.
 std::vector<V3d> fcc_spheres(int cells);

@@ -1,6 +1,6 @@
-// Grains of twelve decades of size in one scene. Four grains of each decade stand around the middle, at ten radii: the
-// scene looks the same in every decade, ten times as large. The middle is a median of the grains, where places keep
-// their precision.
+// Grains of twelve decades of size in one scene. Four grains of each decade lie around the middle, at distances that
+// grow with their radius: the scene looks the same in every decade, ten times as large. The middle is a median of the
+// grains, where positions keep their precision.
 
 #include "render/stress/stress_furnace.h"
 #include "render/stress/stress_scenes.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int least = -9, most = 3;
 
-/// The scene from as near as shows the grains of radius 10^decade.
+/// The scene seen from so near that it shows the grains of radius 10^decade.
 StressScene decades(int decade, const std::vector<Material>& materials)
 {
     StressScene scene = empty_scene(24, 24, V3d(0), V3d(1), 35);
@@ -66,8 +66,8 @@ StressScene lossless(int decade, const Material& material, const std::string& me
     return scene;
 }
 
-/// Black dust of radius 1e-6 on a ball of radius 1 that nobody sees, as its index is 1, from so near that a grain of
-/// dust fills a part of the picture, which shows no whole number of them: the light between its discs.
+/// Compares the light between grains of black dust of radius 1e-6 on a ball of radius 1, which is invisible because its
+/// index is 1. The view is so near that it shows few grains of dust, and not a whole number of them.
 StressFinding dust(const V3d& offset, const StressView& view, const Progress& progress)
 {
     constexpr double radius = 1e-6, step = 4 * radius;
@@ -97,10 +97,10 @@ StressFinding dust(const V3d& offset, const StressView& view, const Progress& pr
 
 void add_size_cases(StressRun& run)
 {
-    run.begin(
-        "sizes",
-        "52 grains of radius 1e-9 to 1e3 in one scene: a near view of one decade with that of another, in the mean",
-        "noise");
+    run.begin("sizes",
+              "52 grains of radius 1e-9 to 1e3 in one scene: a near view of one decade, compared with the same view of "
+              "another in the mean",
+              "noise");
     for (const int decade : {-8, -5, -2, 1}) {
         run.add(fmt::format("radius 1e{} like radius 1, ept", decade),
                 decade == -8 ? StressExtent::quick : StressExtent::full,
@@ -110,8 +110,8 @@ void add_size_cases(StressRun& run)
         return like_decade_zero(-8, {.kind = IntegratorKind::ppt, .accuracy = Accuracy::draft, .spp = 1024},
                                 run.progress());
     });
-    run.begin("sizes, furnace", "the same 52 grains, lossless, in a surrounding of 1 with 1",
-              "1e-5: the rounding of some 100 products of floats");
+    run.begin("sizes, furnace", "the same 52 grains, lossless, in surroundings of radiance 1, compared with 1",
+              "1e-5: the rounding of some 100 float products");
     for (const int decade : {-9, -3, 3}) {
         run.add(fmt::format("glass, near radius 1e{}, ept", decade), StressExtent::quick,
                 [&] { return furnace(lossless(decade, glass_material(1.5)), {.spp = 64}, run.progress()); });
@@ -130,9 +130,9 @@ void add_size_cases(StressRun& run)
         });
     }
     run.begin("radius ratio 1e6",
-              "the light between black grains of radius 1e-6 on a ball of radius 1 with the area that they leave, "
-              "pixel by pixel",
-              "noise; 0.2 % for the sum that stands for the integral over a pixel");
+              "the light between black grains of radius 1e-6 on a ball of radius 1, compared with the area that they "
+              "leave free, pixel by pixel",
+              "noise; 0.2 % because a sum replaces the integral over a pixel");
     for (const IntegratorKind kind : {IntegratorKind::ept, IntegratorKind::ppt, IntegratorKind::automatic}) {
         run.add(
             "dust on a ball, " + name_of(kind), kind == IntegratorKind::ept ? StressExtent::quick : StressExtent::full,

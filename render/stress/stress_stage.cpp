@@ -16,8 +16,8 @@ public:
     {
         std::string name = (std::filesystem::temp_directory_path() / "scree_stress_XXXXXX").string();
         if (!::mkdtemp(name.data()))
-            throw InputError(name, "a folder that cannot be made", "room for temporary files",
-                             "TMPDIR names their folder");
+            throw InputError(name, "a folder that cannot be created", "room for temporary files",
+                             "set TMPDIR to a folder for them");
         path_ = name;
     }
     ~ScratchFolder()

@@ -16,7 +16,7 @@ struct StressView {
     uint32_t spp = 16;
     uint64_t seed = 1;
     DirectLight direct_light = DirectLight::both;
-    double timeout = 120; ///< seconds, after which a path that is on its way is given up, which counts as a failure
+    double timeout = 120; ///< seconds after which unfinished paths are given up, which counts as a failure
 };
 
 struct StressPicture {
@@ -24,10 +24,10 @@ struct StressPicture {
     RenderStatistics statistics;
 };
 
-/// A stress scene ready to render: written to a temporary folder, read by what reads a user's scenes, and built.
+/// A stress scene ready to render: written to a temporary folder, read by the code that reads user scenes, and built.
 class StressStage {
 public:
-    /// Of the view, integrator and accuracy count. Throws InputError, Cancelled.
+    /// Uses only the integrator and accuracy of the view. Throws InputError, Cancelled.
     StressStage(const StressScene& scene, const Placing& placing, const StressView& view, const Progress& progress);
     ~StressStage();
 

@@ -10,7 +10,7 @@
 
 namespace scree {
 
-/// What the grains of a bed are: for comparing proxies with grains as they are.
+/// The grains of a bed, to compare proxies with explicit grains.
 struct BedGrain {
     std::string name;
     Material material; ///< absorption for a grain of radius 1
@@ -22,9 +22,9 @@ struct BedGrain {
 /// their natural absorption).
 std::vector<BedGrain> bed_grains(double gsdf_error);
 
-/// A cube full of grains of radius 1 at a fraction, lit by a bright upper half of the sky.
+/// A cube of grains of radius 1 with the pack rate `fraction`, lit by a bright upper half of the sky.
 std::unique_ptr<TestScene> make_bed(const BedGrain& grain, double fraction, uint64_t count);
-/// The same under a sun of an angular diameter (degrees) and irradiance 3, and a dim sky.
+/// The same under a sun of the angular diameter `diameter` (degrees) and irradiance 3, and a dim sky.
 std::unique_ptr<TestScene> make_bed_under_sun(const BedGrain& grain, double fraction, uint64_t count, double diameter);
 
 /// Mean radiance of `paths` rays from above and from the sides towards the bed's middle.

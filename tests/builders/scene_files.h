@@ -21,18 +21,18 @@ struct DumpGrain {
     int type;
     V3d center;
     double radius;
-    Imath::Quatd orientation{1, 0, 0, 0}; ///< written when the scene says so
+    Imath::Quatd orientation{1, 0, 0, 0}; ///< written if SceneFiles::orientations is set
 };
 
-/// A scene as a user has it: a scene file, a dump, meshes. Everything of length is multiplied by `scale`, then moved by
-/// `offset`; what is per length is divided.
+/// A scene as a user has it: a scene file, a dump, meshes. All lengths are multiplied by `scale`, and positions then
+/// moved by `offset`; values per length are divided by `scale`.
 ///
 /// The standard scene has grains of types 1 to 4 (tinted glass sphere, Lambert sphere, Lambert cube, rough glass
 /// icosahedron) on a floor under lights of every finite kind, a sun and a constant sky.
 struct SceneFiles {
     double scale = 1;
     V3d offset{0};
-    std::vector<std::vector<DumpGrain>> frames; ///< of the dump, rows as they stand
+    std::vector<std::vector<DumpGrain>> frames; ///< of the dump, rows in this order
     bool orientations = false;
     bool floor = true;
     double aperture = 0.3;

@@ -134,7 +134,7 @@ void prepare_media(World& world, std::optional<StfForm> shells)
 {
     world.clearance = make_clearance(world, Progress());
     if (!shells) return;
-    static StfCache cache{{}}; // of all tests of a program
+    static StfCache cache{{}}; // shared by all tests of a program
     std::vector<PartReport> parts;
     std::vector<std::string> remarks;
     add_shells({*shells}, cache, world, parts, remarks, Progress());

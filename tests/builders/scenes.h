@@ -31,7 +31,7 @@ public:
     void add_grain(const V3d& center, double radius, uint32_t type);
     void add_grains(const std::vector<PackedSphere>& spheres, uint32_t type);
     void add_surface(const TriangleMesh& mesh, const Material& material);
-    /// sigma_t per unit of length. instead_of_grains: grains in there are not met.
+    /// sigma_t per unit of length. instead_of_grains: rays do not hit grains inside it.
     void add_medium(const TriangleMesh& mesh, const V3d& sigma_t, const Color& albedo, double g,
                     bool instead_of_grains = false);
     /// The same with a phase function of a table.
@@ -39,10 +39,10 @@ public:
                     std::shared_ptr<const PhaseTable> table);
     void add_light(const Light& light);
     void add_constant_light(float radiance);
-    /// White from everywhere as well, but as a light that is sampled.
+    /// Adds the same white light from all around, but as a light that is sampled.
     void add_white_environment();
 
-    /// Light goes through shells in the media, where they fit.
+    /// Light crosses media with shells where they fit.
     void use_shells(StfForm form = StfForm::full) { shells_ = form; }
 
     /// Builds; nothing may be added afterwards. Coordinates are scaled by a power of two so that the grains fill -1..1.
@@ -69,7 +69,7 @@ private:
         Color albedo;
         double g;
         bool instead_of_grains;
-        std::shared_ptr<const PhaseTable> table; ///< null: g is told
+        std::shared_ptr<const PhaseTable> table; ///< null: g decides
     };
     std::vector<Medium> media_;
     std::vector<Light> lights_;
@@ -77,7 +77,7 @@ private:
     std::unique_ptr<Tracer> tracer_;
 };
 
-/// Finds how far places in the media of a world are from everything, and gives them shells; before its tracer is made.
+/// Gives a world its clearances and the media their shells; to be called before the tracer is made.
 void prepare_media(World& world, std::optional<StfForm> shells);
 
 Material lambert(float reflectance);

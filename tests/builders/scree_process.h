@@ -5,17 +5,18 @@
 
 namespace scree::test {
 
-/// The command line of the built program, run by a shell-free spawn.
+/// The result of a run of the built program, which starts without a shell.
 struct ProgramRun {
     int status = -1; ///< exit code; 128 + n for signal n
     std::string out, err;
     double seconds = 0;
 };
 
-/// Where the built `scree` lies.
+/// The path of the built `scree`.
 std::string scree_program();
 
-/// Runs `scree` with these arguments; when its error output first holds `signal_at`, waits and sends SIGINT.
+/// Runs `scree` with these arguments; when its error output first contains `signal_at`, waits `signal_after` seconds
+/// and sends SIGINT.
 ProgramRun run_scree(const std::vector<std::string>& arguments, const std::string& signal_at = "",
                      double signal_after = 0, const std::string& program = scree_program());
 

@@ -30,7 +30,7 @@ GridSlab::GridSlab(double depth, double sigma_t, float albedo, double g, double 
     MediumGrids grids{grid, nullptr, nullptr, {}, "slab"};
     grids.to_scene[0][0] = grids.to_scene[1][1] = unit * wide / across;
     grids.to_scene[2][2] = unit * depth / down;
-    // Cut out of its middle, where interpolation does not meet the grid's faces.
+    // The slab is cut out of the middle of the grid, where interpolation does not reach the grid's faces.
     const TriangleMesh mesh =
         box_mesh(unit * V3d(-0.5 * wide, -0.5 * wide, -0.5 * depth), unit * V3d(0.5 * wide, 0.5 * wide, 0.5 * depth));
     MediumRegion region{"slab", {}, mesh.triangles, nullptr, nullptr, nullptr, false};

@@ -9,8 +9,7 @@
 
 namespace scree {
 
-/// A slab between z = 0 and z = -depth, far wider than light goes, under a white sky; shells: how light goes through
-/// them, or not at all.
+/// A slab between z = 0 and z = -depth, far wider than light travels, under a white sky. shells: their form, or none.
 std::unique_ptr<TestScene> slab(double depth, const V3d& sigma_t, const Color& albedo, double g,
                                 std::optional<StfForm> shells = {});
 
@@ -27,13 +26,13 @@ struct ReflectedAndPassed {
     Estimate up[3], down[3]; ///< by channel
 };
 
-/// What rays bring that come down from `distance` to (0, 0, 0), by the side they leave to. cosine: of incidence; below
-/// 0: as of diffuse light.
+/// The radiance of rays that come down from `distance` to (0, 0, 0), by the side on which they leave. cosine: of
+/// incidence; below 0: directions are distributed as in diffuse light.
 ReflectedAndPassed shine(const World& world, const Tracer& tracer, double distance, uint32_t paths, double cosine,
                          uint64_t seed);
 ReflectedAndPassed shine(const TestScene& scene, uint32_t paths, double cosine, uint64_t seed);
 
-/// Mean radiance of rays from all around towards the middle of things.
+/// Mean radiance of rays from all around towards the middle of the scene.
 Estimate from_all_around(const World& world, const Tracer& tracer, uint32_t count, double distance,
                          const PathOptions& options, uint64_t seed);
 

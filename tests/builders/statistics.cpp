@@ -57,7 +57,7 @@ ChiSquare chi_square(const std::vector<double>& observed, const std::vector<doub
     if (pooled_expected >= 5)
         add(pooled_observed, pooled_expected);
     else if (pooled_observed > 30)
-        result.statistic = std::numeric_limits<double>::infinity(); // where nothing may be
+        result.statistic = std::numeric_limits<double>::infinity(); // counts where almost none are expected
     result.degrees -= 1;
     result.p_value = upper_tail(result.statistic, result.degrees);
     result.text = fmt::format("chi2 {} of {} degrees, p {}; worst cell {}: observed {}, expected {}; pooled {} of {}",
@@ -70,7 +70,7 @@ ChiSquare chi_square(const std::vector<double>& observed, const std::vector<doub
 ChiSquare chi_square_two(const std::vector<double>& first, const std::vector<double>& second,
                          const std::vector<double>& second_variance)
 {
-    // Counts are Poisson: their variance is estimated by themselves.
+    // Counts are Poisson: each count estimates its own variance.
     ChiSquare result;
     double pool_first = 0, pool_second = 0, pool_variance = 0;
     const auto add = [&](double a, double b, double variance) {
@@ -79,7 +79,7 @@ ChiSquare chi_square_two(const std::vector<double>& first, const std::vector<dou
         ++result.degrees;
     };
     for (size_t i = 0; i < first.size(); ++i) {
-        // Few counts are not yet normal; heavy single weights neither.
+        // Cells with few counts or with heavy single weights are not normal.
         if (first[i] < 25 || second_variance[i] > 4 * first[i] + second[i]) {
             pool_first += first[i];
             pool_second += second[i];

@@ -37,12 +37,14 @@ struct ChiSquare {
 /// Pearson's test of counts against expected counts; cells expecting fewer than 5 are pooled.
 ChiSquare chi_square(const std::vector<double>& observed, const std::vector<double>& expected);
 
-/// Pearson's test that two sets of counts, over the same cells, come from one distribution. Cells below 10 in sum are
-/// pooled. weights_variance: per cell the variance of second[i], when its entries are weighted sums and not counts.
+/// Pearson's test that two sets of counts, over the same cells, come from one distribution.
+///
+/// Cells with few counts (first[i] < 25) or heavy weights are pooled. second_variance: the variance of each second[i],
+/// which may be a weighted sum.
 ChiSquare chi_square_two(const std::vector<double>& first, const std::vector<double>& second,
                          const std::vector<double>& second_variance);
 
-/// The level each of n tests must keep so that all of them keep `level` (Sidak).
+/// The level of each of n tests at which all of them together have `level` (Sidak).
 double sidak(double level, int n);
 
 } // namespace scree

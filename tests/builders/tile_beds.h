@@ -7,11 +7,11 @@
 
 namespace scree {
 
-/// A tile of spheres of one size, some of them, made once and kept; any fraction that tile_generator can make.
+/// A tile of `spheres` equal spheres, made once and kept; any fraction that tile_generator can make.
 std::shared_ptr<const PackingTile> sphere_tile(double fraction, uint64_t spheres);
 
 /// A cube from -half to half in all directions, filled from a tile with grains of one type, and the tracer over it;
-/// lengths are render units. However large it is, it costs no more.
+/// lengths are render units. A larger cube costs no more.
 class TileBed {
 public:
     TileBed(std::shared_ptr<const PackingTile> tile, double mean_radius, GrainType type, double half);

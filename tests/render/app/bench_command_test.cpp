@@ -27,7 +27,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Throws where it is not well-formed.
+/// Throws if the text is not well-formed XML.
 void check_xml(const std::string& text)
 {
     std::istringstream stream(text);
@@ -35,7 +35,7 @@ void check_xml(const std::string& text)
     boost::property_tree::read_xml(stream, tree);
 }
 
-/// The table of a text.
+/// Expects that the table in a text fits on a screen.
 void expect_narrow(const std::string& text)
 {
     std::istringstream lines(text.substr(text.find("scene "), text.find("page:") - text.find("scene ")));
@@ -47,7 +47,7 @@ protected:
     BenchCommand() : scene_(standard_scene().write(folder_)) {}
 
     std::string path(const std::string& name) const { return folder_.path(name).string(); }
-    /// What the command prints; its complaint is in wrong_.
+    /// Returns what the command prints; its error message is in wrong_.
     std::string run(std::vector<std::string> arguments)
     {
         arguments.insert(arguments.begin(), {"bench"});
@@ -111,7 +111,7 @@ TEST_F(BenchCommand, GoesOnWithItsReference)
     const auto reference = [&] { return json::parse(read_bytes(folder_.path("out/bench.json")))["reference"]; };
     const json first = reference();
     run(quick("out"));
-    EXPECT_EQ(reference()["spp"], first["spp"]); // as much was asked for as there is
+    EXPECT_EQ(reference()["spp"], first["spp"]); // the file has as much as was asked for
     std::vector<std::string> longer = quick("out");
     longer.back() = "0.8";
     run(longer);
@@ -196,7 +196,7 @@ BenchJob job_of(const std::string& scene, double seconds)
     return job;
 }
 
-// With a sample a pixel in all of them, a shared one would make the pictures the same.
+// All pictures have one sample a pixel: a shared sample would make them the same.
 TEST_F(BenchCommand, SharesNoSampleWithAPictureOfTheSameSeed)
 {
     BenchJob job = job_of(scene_, 1e-9);
@@ -214,7 +214,7 @@ TEST_F(BenchCommand, SharesNoSampleWithAPictureOfTheSameSeed)
         for (size_t p = 0; p < other.size(); ++p) count += (other[p] - picture[p]).length() < 1e-5;
         return static_cast<double>(count) / static_cast<double>(other.size());
     };
-    EXPECT_EQ(same(render(0)), 1); // so it would be seen
+    EXPECT_EQ(same(render(0)), 1); // so a shared sample would show
     EXPECT_LT(same(render(1)), 0.5);
     job.reference = folder_.path("out.exr");
     const BenchResult result = run_bench(job, Progress());
@@ -261,7 +261,7 @@ TEST_F(BenchCommand, KeepsTheReferenceAndOldPagesWhenInterrupted)
     running = &progress;
     suite.scenes.clear();
     EXPECT_THROW(run_suite({job, other}, suite, folder_.path("out"), "", progress), Cancelled);
-    EXPECT_EQ(suite.scenes.size(), 1u); // its reference was there
+    EXPECT_EQ(suite.scenes.size(), 1u); // the first run had made its reference
     EXPECT_EQ(read_bytes(folder_.path("out/README.md")), page);
     EXPECT_EQ(read_bytes(folder_.path("out/few.svg")), plot);
     EXPECT_FALSE(std::filesystem::exists(folder_.path("out/other.svg")));
@@ -345,7 +345,7 @@ TEST(BenchWords, GivesGainsWithTheirError)
         result.methods[m].time.processor = 10;
         result.methods[m].estimate.noise = m == 0 ? Measured{0.04, 0.0012} : Measured{0.01, 0.0004};
     }
-    EXPECT_EQ(gain_words(result, result.methods[1]), "4.0 +- 0.2 x"); // 3 and 4 %: 5 %
+    EXPECT_EQ(gain_words(result, result.methods[1]), "4.0 +- 0.2 x"); // errors of 3 and 4 % make 5 %
     EXPECT_EQ(gain_words(result, result.methods[0]), "1");
 }
 

@@ -25,7 +25,7 @@ protected:
     MediumCommand() { write("slab.obj", obj_text(box_mesh({-4, -4, -1}, {4, 4, 0}))); }
 
     void write(const std::string& name, const std::string& text) const { std::ofstream(folder_.path(name)) << text; }
-    /// Writes a scene looking at the origin under a white sky, with these keys besides.
+    /// Writes a scene looking at the origin under a white sky, with these additional keys.
     std::string scene(const std::string& keys) const
     {
         write("scene.json",
@@ -34,7 +34,7 @@ protected:
                   keys + "}");
         return path("scene.json");
     }
-    /// 729 white spheres of radius 1/4 on a lattice.
+    /// 729 grey spheres of radius 1/4 on a lattice.
     static std::string grains(float reflectance)
     {
         std::string list;

@@ -1,4 +1,4 @@
-// Bias and noise told apart by halves: made-up pictures whose truth, bias and noise are known.
+// Halves separate bias from noise: synthetic pictures whose truth, bias and noise are known.
 
 #include "render/bench/error_estimate.h"
 #include "render/film/relative_error.h"
@@ -26,7 +26,7 @@ std::vector<V3d> truth()
     return pixels;
 }
 
-/// Noise of mean 0 and variance 1: with `skewed` long tails above, as paths have them.
+/// Noise of mean 0 and variance 1: if `skewed`, with a long tail above, as paths have it.
 struct Noise {
     std::mt19937_64 random;
     bool skewed = false;
@@ -37,8 +37,8 @@ struct Noise {
     }
 };
 
-/// A picture of two halves, of which each pixel deviates by `deviation` of the truth, and the whole is `factor` times
-/// as bright as it should be.
+/// A picture of two halves: each pixel of the whole has noise of `deviation` times the truth, and the whole is `factor`
+/// times as bright as it should be.
 HalfPictures picture_of(double factor, double deviation, Noise& noise)
 {
     HalfPictures picture;
@@ -52,7 +52,7 @@ HalfPictures picture_of(double factor, double deviation, Noise& noise)
     return picture;
 }
 
-/// What the estimators measure when every pixel is wrong by this part of its truth.
+/// The squared error that the estimators measure when every pixel is off by the part `deviation` of its truth.
 double relative_square(double deviation)
 {
     HalfPictures exact{width, height, truth(), truth(), {}};
@@ -72,21 +72,21 @@ TEST(ErrorEstimate, FindsTheNoiseOfBothAndTheirErrorApart)
         reference_noise.add(e.reference_noise.value);
         error.add(e.squared_error.value);
     }
-    // The reference's own noise moves what it is relative to by at most some of its square.
+    // The reference's own noise changes the divisor of the error by at most about the square of this noise.
     EXPECT_NEAR(noise.mean(), relative_square(0.2), 4 * noise.standard_error() + 0.02 * relative_square(0.2));
     EXPECT_NEAR(reference_noise.mean(), relative_square(0.05),
                 4 * reference_noise.standard_error() + 0.02 * relative_square(0.05));
     EXPECT_NEAR(error.mean(), relative_square(0.2), 4 * error.standard_error() + 0.02 * relative_square(0.2));
 }
 
-/// Noise as caustics have it: nearly always a little too dark, and rarely far too bright.
+/// Noise like that of caustics: nearly always a little too dark, and rarely far too bright.
 struct Fireflies {
     std::mt19937_64 random;
     double operator()() { return std::bernoulli_distribution(0.005)(random) ? 14 : -0.07; }
 };
 
-// Relative to itself a reference would weigh its fireflies less than their absence: there would be a squared bias of
-// about 0.0012.
+// If errors were relative to the pixel itself, fireflies of the reference would weigh less than their absence, and the
+// squared bias would be about 0.0012.
 TEST(ErrorEstimate, AddsUpWithFirefliesInTheReference)
 {
     Estimate bias, gap;
@@ -145,7 +145,7 @@ TEST_P(Unbiased, HasABiasOfNothingWithinItsInterval)
         claimed += b.is_above_zero();
     }
     EXPECT_LT(std::abs(bias.z(0)), 4);
-    EXPECT_GE(covered, 0.89 * repeats); // of 95 in 100, less four deviations
+    EXPECT_GE(covered, 0.89 * repeats); // 95 in 100, minus four standard deviations
     EXPECT_LE(claimed, 3);
 }
 INSTANTIATE_TEST_SUITE_P(Noises, Unbiased, testing::Bool());
@@ -164,7 +164,7 @@ TEST_P(Unbiased, IsFoundBiasedWhenItIs)
         claimed += e.squared_bias.is_above_zero();
         covered += std::abs(e.color[1].value - 0.08) < 1.96 * e.color[1].error;
     }
-    // Relative to what is around a pixel and not to itself: at the edge and the corner that is not quite the same.
+    // Errors are relative to the surroundings of a pixel, which differ from the pixel at the edge and the corner.
     EXPECT_NEAR(std::sqrt(bias.mean()), std::sqrt(relative_square(0.08)), 0.008);
     EXPECT_NEAR(color.mean(), 0.08, 4 * color.standard_error());
     EXPECT_GE(claimed, 0.95 * repeats);

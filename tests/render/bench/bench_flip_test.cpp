@@ -39,8 +39,8 @@ TEST(Flip, IsNothingBetweenAPictureAndItself)
 
 TEST(Flip, TakesBlackAndWhiteAsFarApart)
 {
-    // Plain pictures have no features, and HyAB of black and white is 100: 100^0.7 spread between the knee at 0.4 and
-    // the most there is, 41.2761, of green and blue.
+    // Plain pictures have no features, and HyAB of black and white is 100: 100^0.7 lies between the knee at 0.4 and the
+    // maximum, 41.2761, the difference of green and blue.
     const double knee = 0.4 * 41.2761, expected = 0.95 + (std::pow(100, 0.7) - knee) / (41.2761 - knee) * 0.05;
     for (const double v : flip_difference(plain(V3d(0)), plain(V3d(1)))) EXPECT_NEAR(v, expected, 1e-4);
     EXPECT_NEAR(mean_flip(flip_difference(plain({0, 1, 0}), plain({0, 0, 1}))), 1, 1e-9);

@@ -1,4 +1,4 @@
-// The stress test of `scree bench --stress`: that its cases pass, and that it sees what it is there to see.
+// The stress test of `scree bench --stress`: its cases pass, and its comparisons find the deviations they should find.
 
 #include "base/sampler.h"
 #include "render/stress/stress.h"
@@ -23,7 +23,7 @@ TEST(StressQuick, EveryCasePasses)
     EXPECT_EQ(stress_json(report).at("passed").get<bool>(), report.passed());
 }
 
-/// Noise of a mean and a relative difference of the right half.
+/// Noise with mean 1 whose right half is brighter by the part `brighter`.
 Film noise(uint64_t seed, double brighter)
 {
     Film film(24, 18, 0, 0, 24, 18);
