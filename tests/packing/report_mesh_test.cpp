@@ -141,7 +141,7 @@ TEST_F(ReportMesh, NoBulkIsSaidAndNotGuessed)
     EXPECT_EQ(verdicts.at("containment"), Verdict::pass);
     for (const char* key : {"chords", "contact_value", "crystal", "cells", "contacts", "profile"})
         EXPECT_EQ(verdicts.at(key), Verdict::info) << key;
-    EXPECT_NE(html_of(r).find("what is said of the bulk is left out"), std::string::npos);
+    EXPECT_NE(html_of(r).find("measurements of the bulk are left out"), std::string::npos);
 }
 
 } // namespace
