@@ -106,7 +106,8 @@ std::vector<BrokenMesh> broken_meshes()
     list.push_back({"vertices alone", edited(cube, [](TriangleMesh& m) { m.triangles.clear(); }), Kind::empty,
                     "no faces (8 vertices)"});
     list.push_back({"missing vertex", edited(cube, [](TriangleMesh& m) { m.triangles[3][1] = 99; }), Kind::degenerate,
-                    "face 3 names vertex 99, and there are 8", 1, "dropped 1 face with a vertex that does not exist"});
+                    "face 3 names vertex 99, but there are only 8", 1,
+                    "dropped 1 face with a vertex that does not exist"});
     list.push_back({"NaN", moved_vertex({1, nan_, 1}), Kind::not_finite, "vertex 7 of face 2 is at (1, nan, 1)",
                     5.0 / 6, "with a vertex that is not finite"});
     list.push_back({"infinite", moved_vertex({1, 1, inf}), Kind::not_finite, "vertex 7 of face 2 is at (1, 1, inf)",
@@ -157,7 +158,7 @@ std::vector<BrokenMesh> broken_meshes()
                     "edge 3-7 from (1, 1, 0) to (1, 1, 1) has 4 faces", 2, "where parts of the surface touch"});
     list.push_back({"cubes at a face", glued(cube, box_mesh({1, 0, 0}, {2, 1, 1})), Kind::not_manifold, "has 4 faces"});
     list.push_back({"cubes at a vertex", glued(cube, box_mesh({1, 1, 1}, {2, 2, 2})), Kind::not_manifold,
-                    "at vertex 7 at (1, 1, 1) 2 separate fans of faces meet", 2,
+                    "vertex 7 at (1, 1, 1): 2 separate fans of faces meet", 2,
                     "doubled 1 vertex where parts of the surface touch"});
     list.push_back({"duplicate face", edited(cube, [](TriangleMesh& m) { m.triangles.push_back(m.triangles[0]); }),
                     Kind::not_manifold, "edge 0-2 from (0, 0, 0) to (0, 1, 0) has 3 faces (the first of 3 such edges)",

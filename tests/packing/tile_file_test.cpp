@@ -126,7 +126,7 @@ TEST_F(TileFile, DamageIsNamed)
                     for (auto* all : {&g[2].frame.position}) all->pop_back();
                     g[2].frame.radius.pop_back(), g[2].frame.type.pop_back(), g[2].frame.id.pop_back();
                 }),
-                HasSubstr("299 spheres beside 300"));
+                HasSubstr("299 spheres, but 300"));
     // Dilated by a rounding error a thousand times that of the file: above 1e-6 of a radius.
     EXPECT_THAT(error_of([](auto& g) {
                     for (auto& grid : g)
@@ -143,7 +143,7 @@ TEST_F(TileFile, AShiftedVariantDoesNotFit)
     const std::string error = error_of([](auto& g) {
         for (Imath::V3d& p : g[1].frame.position) p += Imath::V3d(0.21, 0, 0);
     });
-    EXPECT_THAT(error, HasSubstr("reaches through a face but has not the same place in every variant"));
+    EXPECT_THAT(error, HasSubstr("reaches through a face, but its place differs between variants"));
 }
 
 TEST_F(TileFile, NoPointsAtAll)

@@ -126,7 +126,7 @@ TEST_F(TileCommand, OnlyPeriodicCuboidsCanBeCut)
                 HasSubstr("--region"));
     EXPECT_THAT(error({"-o", path("a.vdb"), "--from", lattice(4, 0.4), "--region", "50,60,0,10,0,10"}),
                 HasSubstr("no particle in the region"));
-    EXPECT_THAT(error({"-o", path("a.vdb"), "--from", lattice(4, 3)}), HasSubstr("1.5 of the largest diameter"));
+    EXPECT_THAT(error({"-o", path("a.vdb"), "--from", lattice(4, 3)}), HasSubstr("1.5 times the largest diameter"));
 }
 
 TEST_F(TileCommand, DrawsRadiiFromADump)
