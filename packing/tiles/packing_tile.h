@@ -13,7 +13,7 @@ struct ParticleFrame;
 
 /// Whole spheres in a periodic cuboid: the piece that a fill repeats without end.
 ///
-/// The tile comes in interchangeable variants. A row stands for one sphere: its radius and type are the same in every
+/// The tile comes in interchangeable variants. Each row is one sphere: its radius and type are the same in every
 /// variant. Rows below `shared` (all that reach through a face of the cuboid, and perhaps more) also have the same
 /// place in each variant; the others lie wholly inside the cuboid. So any variant fits beside any other, like Wang
 /// tiles.
