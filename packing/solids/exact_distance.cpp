@@ -12,7 +12,7 @@ namespace {
 using Imath::V3d;
 using Exact = CGAL::Exact_rational;
 
-/// A point of a triangle that is nearly nearest to the origin, and a direction along which no point is nearer.
+/// A point of a triangle that is nearly its nearest to the origin, and a direction along which no other is nearer.
 struct Witness {
     V3d nearest, direction;
 };

@@ -37,9 +37,8 @@ struct MadeTile {
 ///
 /// radii: up to a common scale, which follows from the fraction. The spheres start at random places and are moved apart
 /// as soft spheres of their final radii (or are jammed, see tile_jamming.h). Fluids are then brought to equilibrium
-/// (tile_fluid.h). Further variants: tile_variants.h. The same seed gives the same tile on any number of
-/// threads. Throws Cancelled, and InputError, also when the spheres jam below the fraction (naming the largest
-/// fraction reached).
+/// (tile_fluid.h). Further variants: tile_variants.h. The same seed gives the same tile on any number of threads.
+/// Throws Cancelled, and InputError, also when the spheres jam below the fraction (naming the largest one reached).
 MadeTile make_tile(std::span<const double> radii, const TileOptions& options, const Progress& progress);
 
 /// Makes a tile from a frame's spheres, in the frame's unit of length; the frame's box must be a cuboid that is

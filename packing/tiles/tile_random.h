@@ -17,7 +17,7 @@ public:
     uint64_t next() { return mix64(state_ += 0x9e3779b97f4a7c15ull); }
     /// In [0, 1).
     double uniform() { return unit_double(next()); }
-    /// Uniform in 0 .. count - 1 (with a bias of up to 2^-32 count).
+    /// Uniform in 0 .. count - 1 (to 2^-32 of it).
     uint64_t below(uint64_t count) { return static_cast<uint64_t>(uniform() * static_cast<double>(count)); }
     /// Uniform in the unit cube.
     Imath::V3d cube()

@@ -165,8 +165,7 @@ TEST(ExactDistance, BoundsHoldTheTruth)
         const double height = (b - a).cross(c - a).length() / length;
         const double reach = std::max({(a - p).length(), (b - p).length(), (c - p).length()});
         if (d.lo > 0 &&
-            height >
-                1e-4 * length) { // for needles rounding may choose a wrong direction: exact arithmetic handles them
+            height > 1e-4 * length) { // rounding may choose a wrong direction for needles: left to exact arithmetic
             EXPECT_LE(4 * (d.hi - d.lo), 0x1p-53 * reach * (80 + 64 * length / height + 64 * length / (4 * d.lo))) << k;
         }
         EXPECT_EQ(is_nearer_exactly(p, {a, b, c}, 4 * d.hi + 1e-13), true);

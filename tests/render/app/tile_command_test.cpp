@@ -104,7 +104,7 @@ TEST_F(TileCommand, CutsATileOutOfASimulation)
 
 TEST_F(TileCommand, PartsTheOverlapsOfASimulation)
 {
-    // Radius 0.5 at spacing 1, displaced by up to 0.2: pairs overlap by tens of per cent, and the volume fits (0.52).
+    // Radius 0.5 at spacing 1, displaced by up to 0.2: pairs overlap by tens of per cent, and a fraction of 0.52 fits.
     const std::string text = run({"-o", path("a.vdb"), "--from", lattice(6, 0.5), "--variants", "2"});
     EXPECT_THAT(text, HasSubstr("the dump's spheres overlapped: they were moved by"));
     EXPECT_THAT(text, HasSubstr("radii are "));
