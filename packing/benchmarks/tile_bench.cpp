@@ -1,5 +1,5 @@
-// Times and qualities of generated tiles, and the cell grid against CGAL's periodic triangulation as the neighbour
-// search.
+// Times and qualities of generated tiles, and of two neighbour searches: the cell grid and CGAL's periodic
+// triangulation.
 //
 //   tile_bench [N ...]        (default 1000 10000; each N for every distribution)
 #include "packing/report/bond_order.h"
@@ -63,8 +63,8 @@ void bench_tile(const std::string& name, const std::vector<std::string>& words, 
     std::fflush(stdout);
 }
 
-/// Pairs nearer than 1.2 sums of radii by the grid, and the edges of a triangulation, from which they would have to be
-/// picked.
+/// Times the search for pairs nearer than 1.2 sums of radii with the grid, and a triangulation, whose edges would have
+/// to be filtered for such pairs.
 void bench_neighbours(uint64_t count, double sigma)
 {
     TileOptions options;

@@ -15,8 +15,9 @@ namespace scree {
 namespace {
 
 constexpr uint64_t kinds_kept = uint64_t{1} << 24;
-// Voxels along the domain. Light that comes back from a fill has seldom been deeper than some ten spheres: where those
-// are small beside a voxel the field only sorts cells, and where they are not, this many settle most of the rest.
+// Voxels along the domain's longest side. Light that returns from a fill was seldom deeper than some ten spheres. If
+// the spheres are much smaller than a voxel, the field only classifies cells; otherwise this many voxels decide most of
+// the other questions.
 constexpr int field_cells = 96;
 constexpr uint64_t variant_stream = 0x74696c6573ull; // "tiles"
 
@@ -28,7 +29,7 @@ Imath::M33d generic_rotation()
     return q.toMatrix33();
 }
 
-/// The point as multiples of the power of two `step`, whose inverse is also given.
+/// The point rounded to multiples of the power of two `step`; `inverse`: 1 / step.
 Imath::V3d snap(const Imath::V3d& p, double step, double inverse)
 {
     const auto one = [=](double x) { return std::nearbyint(x * inverse) * step; };
@@ -56,7 +57,7 @@ ProceduralFill::ProceduralFill(std::shared_ptr<const Domain> domain, std::shared
     to_lattice_ = rotation_.transposed() * (1 / scale_);
     key_ = hash_key(options.seed, variant_stream);
 
-    // A sphere of the fill has its centre in the bounds: in the box of the lattice around them.
+    // The centres of the fill's spheres lie in the bounds, so the cells must cover the bounds' corners in the lattice.
     Imath::V3d lo(std::numeric_limits<double>::infinity()), hi(-lo);
     for (int corner = 0; corner < 8; ++corner) {
         const Imath::V3d p =
@@ -78,7 +79,7 @@ ProceduralFill::ProceduralFill(std::shared_ptr<const Domain> domain, std::shared
                                      bounds.size().y, bounds.size().z),
                          "a radius that makes fewer than 2^62 spheres", "is the radius in the unit of the mesh?");
     }
-    for (size_t axis = 0; axis < 3; ++axis) { // one more on each side: rounding
+    for (size_t axis = 0; axis < 3; ++axis) { // one more cell on each side, because of rounding
         const int k = static_cast<int>(axis);
         first_[axis] = static_cast<int64_t>(std::floor(lo[k])) - 1;
         count_[axis] = static_cast<uint64_t>(static_cast<int64_t>(std::floor(hi[k])) + 2 - first_[axis]);
@@ -94,7 +95,7 @@ FillCell ProceduralFill::cell_at(const Imath::V3d& lattice) const
 
 bool ProceduralFill::has(const FillCell& cell) const
 {
-    // As unsigned, what lies before the first cell is far beyond the last.
+    // Unsigned arithmetic turns a cell before the first one into a number far beyond the last one.
     return static_cast<uint64_t>(cell.x - first_[0]) < count_[0] &&
            static_cast<uint64_t>(cell.y - first_[1]) < count_[1] &&
            static_cast<uint64_t>(cell.z - first_[2]) < count_[2];
@@ -118,7 +119,7 @@ uint32_t ProceduralFill::variant(uint64_t cell_number) const
 {
     const uint64_t variants = tile_->variants.size();
     if (variants == 1) return 0;
-    // The upper half times the number of variants: no modulo.
+    // Multiplies instead of dividing: the hash's upper half, as a fraction, times the number of variants.
     return static_cast<uint32_t>((hash_with_key(cell_number, key_) >> 32) * variants >> 32);
 }
 
@@ -147,7 +148,7 @@ ProceduralFill::CellKind ProceduralFill::kind(uint64_t cell_number) const
                             (static_cast<double>(c.y) + 0.5) * tile_->size.y,
                             (static_cast<double>(c.z) + 0.5) * tile_->size.z);
     const DistanceField::Interval distance = field_.signed_distance(origin_ + from_lattice(middle));
-    // Every centre is within half the cell's diagonal of its middle, but for rounding, which 2^-20 is far above.
+    // Every centre is within half the cell's diagonal of the cell's middle, except for rounding far below 2^-20.
     const double reach = 0.5 * tile_->size.length() * scale_ * (1 + 0x1p-20);
     CellKind kind = CellKind::boundary;
     if (distance.lo - reach >= largest_radius_ * (1 + 0x1p-20))

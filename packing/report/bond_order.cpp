@@ -20,10 +20,10 @@ constexpr uint64_t most_spheres = 1'000'000;
 constexpr double reach_in_spacings = 1.4, solid_agreement = 0.7;
 constexpr size_t solid_bonds = 7, fewest_bonds = 6;
 
-using Harmonics4 = std::array<std::complex<double>, 5>; // m = 0..4; the others are their conjugates, but for signs
+using Harmonics4 = std::array<std::complex<double>, 5>; // m = 0..4; negative m are the conjugates, except for signs
 using Harmonics6 = std::array<std::complex<double>, 7>;
 
-/// Adds Y_4m and Y_6m of a unit vector: associated Legendre functions over sin^m, times (x + i y)^m.
+/// Adds Y_4m and Y_6m of a unit vector: associated Legendre functions divided by sin^m, times (x + i y)^m.
 void add_harmonics(const V3d& u, Harmonics4& q4, Harmonics6& q6)
 {
     const double c = u.z, c2 = c * c, c4 = c2 * c2;
@@ -51,7 +51,7 @@ void add_harmonics(const V3d& u, Harmonics4& q4, Harmonics6& q6)
     }
 }
 
-/// sum_m a_m conj(b_m) over -l..l.
+/// sum_m a_m conj(b_m) over m = -l..l.
 template <size_t N>
 double product(const std::array<std::complex<double>, N>& a, const std::array<std::complex<double>, N>& b)
 {
@@ -108,8 +108,8 @@ struct Count {
     void add(const Count& o) { count += o.count; }
 };
 
-/// Calls visit(neighbour) for the neighbours of sphere i; a sphere with thousands has nonsense for radii, and keeps the
-/// first.
+/// Calls visit(neighbour) for the neighbours of sphere i. A sphere with thousands of neighbours has a wrong radius;
+/// only the first neighbours are visited then.
 template <class Visit>
 void visit_neighbours(const PackedSpheres& spheres, uint64_t i, double stretch, const Visit& visit)
 {
@@ -132,10 +132,10 @@ BondOrder measure_bond_order(const PackedSpheres& spheres, double number_density
     const RadiusMoments& moments = spheres.moments();
     const double stretch =
         reach_in_spacings / std::cbrt(number_density * (2 * moments.m[3] + 6 * moments.m[2] * moments.m[1]));
-    // All neighbours must be there, also where spheres end at a surface.
+    // All neighbours must be known, even where the spheres end at a surface.
     const double margin = std::max(0.0, 2 * (stretch - 1) * spheres.largest_radius());
     const std::vector<uint64_t> block = spheres.central_block(most_spheres, margin);
-    // Single precision is enough to compare two sums, and halves what a million spheres need.
+    // Single precision is enough to compare two sums, and halves the memory for a million spheres.
     using Compact = std::array<std::complex<float>, 7>;
     std::vector<Compact> q6(spheres.size());
     std::vector<uint8_t> known(spheres.size());
@@ -172,7 +172,7 @@ BondOrder measure_bond_order(const PackedSpheres& spheres, double number_density
                 size_t bonds = 0, solid = 0;
                 visit_neighbours(spheres, i, stretch, [&](const PackedSpheres::Neighbour& n) {
                     Compact other = q6[n.index];
-                    if (!known[n.index]) { // at the block's edge
+                    if (!known[n.index]) { // beyond the block's edge
                         Harmonics4 unused{};
                         Harmonics6 q{};
                         visit_neighbours(spheres, n.index, stretch, [&](const PackedSpheres::Neighbour& m) {

@@ -8,25 +8,26 @@
 
 namespace scree {
 
-/// Bond order after Steinhardt, Nelson, Ronchetti (Phys. Rev. B 28, 1983): whether a packing has crystallised.
+/// Bond order after Steinhardt, Nelson, Ronchetti (Phys. Rev. B 28, 1983): tells whether a packing has crystallised.
 ///
 /// Neighbours are spheres nearer than 1.4 mean spacings (number density^(-1/3)), scaled by (r_i + r_j) over its cubic
-/// mean: 12 in fcc and hcp, 14 in bcc, 6 in simple cubic lattices. A bond is solid-like where the q6 of its ends agree
-/// to more than 0.7 (normalised product; ten Wolde, Ruiz-Montero, Frenkel, J. Chem. Phys. 104, 1996); a sphere is
-/// crystal-like with seven such bonds or, when it has fewer neighbours, six and all of them solid-like.
+/// mean: 12 in fcc and hcp lattices, 14 in bcc, 6 in simple cubic. A bond is solid-like if the q6 of its two ends agree
+/// to more than 0.7 (normalised product; ten Wolde, Ruiz-Montero, Frenkel, J. Chem. Phys. 104, 1996). A sphere is
+/// crystal-like if it has seven such bonds or, with fewer than seven neighbours, six neighbours and all bonds
+/// solid-like.
 struct BondOrder {
-    uint64_t spheres = 0, bonds = 0; ///< measured spheres, and the bonds seen from them
+    uint64_t spheres = 0, bonds = 0; ///< measured spheres, and bonds counted from these spheres
     double mean_neighbours = 0;
-    double global_q4 = 0, global_q6 = 0; ///< of all bonds together: 1 / sqrt(bonds) where there is no order
+    double global_q4 = 0, global_q6 = 0; ///< of all bonds together; 1 / sqrt(bonds) where there is no order
     double mean_local_q4 = 0, mean_local_q6 = 0;
     double crystal_fraction = 0; ///< of the measured spheres
     static constexpr double bin_width = 0.01;
-    std::vector<uint64_t> local_q4 = std::vector<uint64_t>(100), local_q6 = local_q4; ///< spheres by q, bins from 0
+    std::vector<uint64_t> local_q4 = std::vector<uint64_t>(100), local_q6 = local_q4; ///< spheres by q in bins from 0
     FabricTensor fabric; ///< of the same bonds
 };
 
-/// number_density: of the bulk. Of more than a million bulk spheres it measures a block in the middle. Throws
-/// Cancelled.
+/// Measures the bond order; of more than a million bulk spheres, only a block in the middle. number_density: of the
+/// bulk. Throws Cancelled.
 BondOrder measure_bond_order(const PackedSpheres& spheres, double number_density, const Progress& progress = {});
 
 } // namespace scree

@@ -36,7 +36,7 @@ double bmcsl_contact(double fraction, const RadiusMoments& radii)
 std::vector<double> percus_yevick(double fraction, int steps_per_diameter, double x_max)
 {
     // r h(r) = 12 f int_0^1 (r - t) h(|r - t|) Q(t) dt for r > 1, with Q(t) = a/2 (t^2 - 1) + b (t - 1) and h = -1
-    // below 1: the trapezoid rule on either side of the jump of h at contact.
+    // below 1. The trapezoid rule is applied separately on each side of the jump of h at contact.
     const size_t n = static_cast<size_t>(steps_per_diameter);
     const double dt = 1.0 / double(n), a = (1 + 2 * fraction) / std::pow(1 - fraction, 2),
                  b = -1.5 * fraction / std::pow(1 - fraction, 2);
@@ -46,11 +46,11 @@ std::vector<double> percus_yevick(double fraction, int steps_per_diameter, doubl
         q[k] = a / 2 * (t * t - 1) + b * (t - 1);
     }
     const size_t last = static_cast<size_t>(std::ceil((x_max - 1) * double(n))) + n;
-    std::vector<double> rh(last + 1); // r h(r), at contact from above
+    std::vector<double> rh(last + 1); // r h(r); at contact the value from above
     for (size_t i = 0; i < n; ++i) rh[i] = -double(i) * dt;
     rh[n] = fraction * (2.5 * a + 4 * b);
     for (size_t i = n + 1; i <= last; ++i) {
-        const size_t jump = std::min(i - n, n); // r - t passes contact at this step of t
+        const size_t jump = std::min(i - n, n); // the step of t at which r - t is at contact
         double sum = 0;
         for (size_t k = 1; k <= jump; ++k) sum += (k == jump ? 0.5 : 1) * q[k] * rh[i - k];
         for (size_t k = jump; k < n; ++k) sum += (k == jump ? 0.5 : 1) * q[k] * (i - k == n ? -1 : rh[i - k]);

@@ -24,9 +24,9 @@ using Imath::V3d;
 namespace {
 
 constexpr uint64_t most_cells = 100'000, most_points = 500'000;
-constexpr int64_t outer = -1; // a sphere or image whose own cell is not asked for
+constexpr int64_t outer = -1; // a sphere or image whose own cell is not needed
 
-/// The vertex of the tessellation that a tetrahedron is dual to, and its power distance from the four spheres.
+/// The vertex of the tessellation that is dual to a tetrahedron, and its power distance from the four spheres.
 struct DualVertex {
     V3d place{0};
     double power = 0;
@@ -64,7 +64,7 @@ T determinant_of(const std::array<std::array<T, 3>, 3>& a)
            a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
 }
 
-/// The point of equal power to four spheres, relative to the first: 2 (p_i - p_0) . x = |p_i - p_0|^2 - w_i + w_0.
+/// The point of equal power to four spheres, relative to the first one: 2 (p_i - p_0) . x = |p_i - p_0|^2 - w_i + w_0.
 template <class T>
 std::array<T, 3> equal_power(const std::array<WeightedPoint, 4>& p, T& determinant)
 {
@@ -82,7 +82,7 @@ std::array<T, 3> equal_power(const std::array<WeightedPoint, 4>& p, T& determina
 
 bool before(const V3d& a, const V3d& b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
 
-/// The same to the last bit for any order of the points.
+/// The dual vertex, the same to the last bit for any order of the points.
 DualVertex dual_vertex(std::array<WeightedPoint, 4> p)
 {
     std::ranges::sort(p,
@@ -91,8 +91,7 @@ DualVertex dual_vertex(std::array<WeightedPoint, 4> p)
     std::array<double, 3> x = equal_power(p, determinant);
     double edges = 1;
     for (size_t i = 1; i < 4; ++i) edges *= (place_of(p[i]) - place_of(p[0])).length();
-    // Flat tetrahedra, of which lattices have many: their dual vertex is well placed, but rounding would throw it
-    // anywhere.
+    // Lattices have many flat tetrahedra. Their dual vertices are well defined, but rounding would put them anywhere.
     if (std::abs(determinant) < 1e-4 * edges) {
         CGAL::Exact_rational exact_determinant(0);
         const auto exact = equal_power(p, exact_determinant);
@@ -102,7 +101,7 @@ DualVertex dual_vertex(std::array<WeightedPoint, 4> p)
     return {place_of(p[0]) + relative, relative.length2() - p[0].weight()};
 }
 
-/// The spheres whose cells are asked for, and all that are near enough to bound them.
+/// The spheres whose cells are needed, and all spheres that are near enough to bound these cells.
 struct Neighbourhood {
     Imath::Box3d known; ///< every sphere with its centre in here is among the points
     std::vector<std::pair<WeightedPoint, int64_t>> points;
@@ -122,7 +121,7 @@ Neighbourhood neighbourhood_of(const PackedSpheres& spheres, const std::vector<u
     };
     for (size_t k = 0; k < block.size(); ++k) add(block[k], spheres.position(block[k]), static_cast<int64_t>(k));
     spheres.visit_box(result.known, [&](uint64_t i, const V3d& centre) {
-        // Itself, but for rounding: no period is shorter than the largest radius.
+        // The sphere itself (except for rounding), not an image: no period is shorter than the largest radius.
         const bool own = (centre - spheres.position(i)).length() < 0.5 * spheres.largest_radius();
         if (!own || !std::ranges::binary_search(block, i)) add(i, centre, outer);
     });
@@ -136,7 +135,7 @@ struct Cells {
     std::vector<uint8_t> present, bounded;
 };
 
-/// Area of a convex polygon seen along a direction; the same to the last bit for any start and sense.
+/// Area of a convex polygon seen along a direction; the same to the last bit for any first corner and orientation.
 double area_across(std::vector<V3d>& polygon, const V3d& direction)
 {
     std::rotate(polygon.begin(), std::ranges::min_element(polygon, before), polygon.end());
@@ -168,7 +167,7 @@ Cells cells_of(const Neighbourhood& neighbourhood, size_t count, double largest_
             std::array<WeightedPoint, 4> p;
             for (int k = 0; k < 4; ++k) p[static_cast<size_t>(k)] = cell->vertex(k)->point();
             cell->info() = dual_vertex(p);
-            // No sphere beyond what is known may have less power here than these four.
+            // No unknown sphere may have less power at this vertex than these four.
             const V3d& c = cell->info().place;
             const V3d below = c - neighbourhood.known.min, above = neighbourhood.known.max - c;
             const double clear = std::min({below.x, below.y, below.z, above.x, above.y, above.z});
@@ -177,7 +176,7 @@ Cells cells_of(const Neighbourhood& neighbourhood, size_t count, double largest_
         if (safe) continue;
         for (int k = 0; k < 4; ++k) spoil(cell->vertex(k));
     }
-    // Where CGAL starts and in which order it goes depends on addresses: sums are made in an order of their own.
+    // CGAL's order depends on addresses, so the sums are taken in an order of their own.
     std::vector<std::pair<size_t, double>> cones;
     std::vector<V3d> polygon;
     uint64_t edges = 0;
@@ -186,7 +185,7 @@ Cells cells_of(const Neighbourhood& neighbourhood, size_t count, double largest_
         auto v = edge->first->vertex(edge->second), w = edge->first->vertex(edge->third);
         if (v->info() == outer && w->info() == outer) continue;
         if (before(place_of(w->point()), place_of(v->point()))) std::swap(v, w);
-        // The face between two cells lies around the edge; the cells are cones over their faces.
+        // The face between two cells is a polygon around the edge; a cell is a union of cones over its faces.
         polygon.clear();
         bool whole = true;
         const Triangulation::Cell_circulator first = triangulation.incident_cells(*edge);
@@ -215,7 +214,7 @@ LaguerreCells measure_laguerre_cells(const PackedSpheres& spheres, double number
     LaguerreCells result;
     if (!(number_density > 0)) return result;
     progress.update("Laguerre cells", 0);
-    // Around each sphere there must be those that bound its cell, also where spheres end at a surface.
+    // The spheres that bound each cell must be known, even where the spheres end at a surface.
     const double spacing = 1 / std::cbrt(number_density);
     std::vector<uint64_t> block = spheres.central_block(most_cells, 2 * spacing);
     if (block.empty()) return result;
@@ -224,15 +223,15 @@ LaguerreCells measure_laguerre_cells(const PackedSpheres& spheres, double number
     for (int attempt = 0;;) {
         const Neighbourhood neighbourhood = neighbourhood_of(spheres, block, margin);
         if (neighbourhood.points.size() > most_points && block.size() > 100) {
-            block = spheres.central_block(block.size() / 2,
-                                          2 * spacing); // one sphere much larger than the others reaches far
+            // A sphere much larger than the others has a long reach.
+            block = spheres.central_block(block.size() / 2, 2 * spacing);
             continue;
         }
         cells = cells_of(neighbourhood, block.size(), spheres.largest_radius(), progress);
         if (++attempt == 4 || std::ranges::find(cells.bounded, uint8_t{0}) == cells.bounded.end()) break;
         margin *= 1.5;
     }
-    double sum2 = 0; // about the running mean (Welford)
+    double sum2 = 0; // of squared deviations from the running mean (Welford)
     result.least = std::numeric_limits<double>::infinity();
     for (size_t k = 0; k < block.size(); ++k) {
         if (!cells.present[k]) {

@@ -16,7 +16,7 @@ namespace {
 constexpr size_t most_told = 10;
 constexpr double largest_gap = 0.31622776601683794; // 10^(-8 + 60/8), in mean radii
 
-/// Volume common to two balls d apart.
+/// Volume shared by two balls at distance d.
 double lens_volume(double r, double s, double d)
 {
     const double small = std::min(r, s);
@@ -37,7 +37,7 @@ struct Part {
     double overlap_sum = 0, lens = 0;
     std::vector<NearPairs::Overlap> worst;
     std::vector<uint64_t> overlap_counts = NearPairs().overlap_counts;
-    std::vector<uint64_t> ends_by_gap = std::vector<uint64_t>(61); ///< ends in the bulk, by gap
+    std::vector<uint64_t> ends_by_gap = std::vector<uint64_t>(61); ///< pair members that are in the bulk, by gap
     std::vector<std::pair<uint64_t, uint64_t>> contacts;
     std::array<double, 6> fabric{};
     uint64_t fabric_count = 0;
@@ -83,7 +83,7 @@ struct Part {
         }
         const double relative = gap / (0.5 * touch);
         const uint64_t ends = uint64_t{bulk[i]} + bulk[n.index];
-        // A gap belongs to the first tolerance that is above it.
+        // A gap counts from the first tolerance above it.
         const double tolerance =
             relative > 0
                 ? std::floor((std::log10(relative) - NearPairs::log_gap_first) * NearPairs::gaps_per_decade) + 1
@@ -99,7 +99,8 @@ struct Part {
     }
 };
 
-/// Who touches whom, and who is left when those with fewer than four contacts are taken out one after the other.
+/// Counts contacts, and finds the spheres that remain when spheres with fewer than four contacts are removed
+/// repeatedly.
 void count_contacts(const std::vector<std::pair<uint64_t, uint64_t>>& contacts, const std::vector<uint8_t>& bulk,
                     NearPairs& result)
 {
@@ -160,7 +161,7 @@ FabricTensor fabric_of(const std::array<double, 6>& sums, uint64_t directions)
     for (const auto& row : m)
         for (const double x : row) norm2 += x * x;
     result.deviatoric = std::sqrt(1.5 * norm2);
-    // Jacobi's rotations: also good where eigenvalues are equal, as those of isotropic tensors are.
+    // Jacobi rotations also work for equal eigenvalues, which isotropic tensors have.
     for (int sweep = 0; sweep < 8; ++sweep)
         for (const auto& [p, q] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)}) {
             if (m[p][q] == 0) continue;

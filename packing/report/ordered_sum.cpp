@@ -21,7 +21,7 @@ void for_chunks(uint64_t count, uint64_t size, const std::string& stage, const P
         if (progress.cancelled()) return;
         work(chunk, chunk * size, std::min(count, (chunk + 1) * size));
         const uint64_t finished = ++done;
-        // Whoever finds another one telling need not wait for it.
+        // A thread need not wait while another thread reports progress.
         const std::unique_lock<std::mutex> lock(telling, std::try_to_lock);
         if (lock) progress.update(stage, double(finished) / double(chunks));
     });

@@ -9,13 +9,13 @@
 
 namespace scree {
 
-/// Runs work(chunk, begin, end) over 0..count in parallel, in chunks of `size` whatever the number of threads.
+/// Runs work(chunk, begin, end) over 0..count in parallel, in chunks of `size` on any number of threads.
 /// Throws Cancelled.
 void for_chunks(uint64_t count, uint64_t size, const std::string& stage, const Progress& progress,
                 const std::function<void(uint64_t chunk, uint64_t begin, uint64_t end)>& work);
 
-/// The sum of what work(begin, end) returns for the chunks of 0..count, added up in their order by State::add: the same
-/// to the last bit on any number of threads. Throws Cancelled.
+/// Sums what work(begin, end) returns for the chunks of 0..count, by State::add in the order of the chunks: the same to
+/// the last bit on any number of threads. Throws Cancelled.
 template <class State, class Work>
 State ordered_sum(uint64_t count, uint64_t size, const std::string& stage, const Progress& progress, const Work& work)
 {
@@ -25,7 +25,7 @@ State ordered_sum(uint64_t count, uint64_t size, const std::string& stage, const
     State sum;
     for (State& part : parts) {
         sum.add(part);
-        part = State(); // states may be large: give each back as soon as it is in
+        part = State(); // states may be large: free each one as soon as it is added
     }
     return sum;
 }

@@ -100,8 +100,8 @@ void PackedSpheres::take_box(const SimulationBox& box)
 
 void PackedSpheres::build_grid()
 {
-    // Cells as wide as a sphere would be empty for the most part where spheres are far apart, and searches go through
-    // all of them: there the cells are as wide as the mean distance, of the middle half along each axis, as single
+    // Searches visit all cells in reach. Where spheres are far apart, cells as wide as a sphere would be mostly empty,
+    // so the cells are as wide as the mean distance there: that of the middle half along each axis, since single
     // spheres may be anywhere.
     double volume = 1;
     std::vector<double> values(size());
@@ -130,7 +130,7 @@ void PackedSpheres::find_bed()
     double volume = 1;
     for (int axis = 0; axis < 3; ++axis) {
         const size_t k = static_cast<size_t>(axis);
-        // Of a tilted box the bed is cut out on every axis.
+        // In a tilted box the bed is limited along every axis.
         if (upright_ && periodic_[k]) {
             bed_.min[axis] = box_lo_[axis];
             bed_.max[axis] = box_lo_[axis] + edges_[k][axis];
@@ -214,7 +214,7 @@ double PackedSpheres::way_in_bulk(const V3d& place, const V3d& direction, double
         }
         return std::max(way, 0.0);
     }
-    // Steps by what is surely free of the surface; close to the end of the bulk is near enough.
+    // Steps by a distance that is surely free of the surface, until the end of the bulk is close.
     double way = 0;
     while (way < most) {
         const V3d at = place + way * direction;
@@ -277,7 +277,7 @@ std::vector<uint64_t> PackedSpheres::central_block(uint64_t most, double margin)
             return std::pair(std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}), i);
         };
     };
-    // The middle of a hollow bulk is none of it: the block grows around the sphere that is nearest.
+    // The middle of a hollow bulk is not in the bulk: the block grows around the nearest sphere instead.
     const V3d seed = position_[*std::ranges::min_element(block, {}, from(middle))];
     std::ranges::nth_element(block, block.begin() + static_cast<std::ptrdiff_t>(most), {}, from(seed));
     block.resize(most);

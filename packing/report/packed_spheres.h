@@ -20,24 +20,25 @@ class DistanceField;
 class Domain;
 class InteriorSampler;
 
-/// The solid that a packing is held to fill; all three are of the same mesh and outlive their user.
+/// The solid that a packing should fill; all three are of the same mesh and must outlive their user.
 struct MeshContainer {
     const Domain* domain = nullptr;
     const InteriorSampler* sampler = nullptr;
     const DistanceField* field = nullptr;
 };
 
-/// The spheres of a report, what contains them, and who is near whom, periodic images included. Any thread may ask.
+/// The spheres of a report, their container, and a search for neighbours, periodic images included. Any thread may ask.
 ///
-/// The container is the mesh; else a box that is periodic along all its edges; else the bed, the box between the
+/// The container is the mesh; else a box that is periodic along all its edges; else the bed: the box between the
 /// quartiles of the centres along each axis that is not periodic; else (fewer than 64 spheres) there is none. The
-/// *bulk* is the part of it where surfaces do not show: all of a periodic box or bed, and what is three largest radii
-/// below a mesh's surface: there also the spheres that touch those of the bulk are whole inside.
+/// *bulk* is the part of the container away from surfaces: all of a periodic box or bed, or what is at least three
+/// largest radii below a mesh's surface. At that depth, spheres that touch a sphere of the bulk are also wholly inside
+/// the mesh.
 class PackedSpheres {
 public:
     enum class Container { none, periodic_box, bed, mesh };
 
-    /// Leaves out spheres of radius 0. With a mesh nothing is periodic.
+    /// Leaves out spheres of radius 0. With a mesh, nothing is periodic.
     /// Throws InputError naming `place` when no sphere is left or one is larger than the periodic box, and Cancelled.
     PackedSpheres(const ParticleFrame& frame, const std::string& place, const MeshContainer& mesh = {},
                   const Progress& progress = {});
@@ -47,7 +48,7 @@ public:
     const Imath::V3d& position(uint64_t i) const { return position_[i]; } ///< inside the box where it is periodic
     double radius(uint64_t i) const { return radius_[i]; }
     uint64_t id(uint64_t i) const { return id_[i]; }
-    bool bulk(uint64_t i) const { return bulk_[i]; } ///< in_bulk of its centre
+    bool bulk(uint64_t i) const { return bulk_[i]; } ///< whether the sphere's centre is in the bulk
     const RadiusMoments& moments() const { return moments_; }
     double smallest_radius() const { return smallest_; }
     double largest_radius() const { return largest_; }
@@ -58,21 +59,21 @@ public:
     const std::array<Imath::V3d, 3>& edges() const { return edges_; }
     bool periodic(size_t k) const { return periodic_[k]; }
     const Imath::Box3d& bed() const { return bed_; }
-    /// Whether the container goes on for ever along an axis of the box.
+    /// Whether the container has no end along an axis of the box.
     bool endless(size_t k) const
     {
         return container_ == Container::periodic_box || (container_ == Container::bed && periodic_[k] && upright_);
     }
-    /// Of the container; 0 for none.
+    /// Volume of the container; 0 if there is none.
     double volume() const { return volume_; }
 
-    /// Uniform in the container; a function of (index, seed).
+    /// A place uniform in the container; depends only on (index, seed).
     Imath::V3d sample(uint64_t index, uint64_t seed) const;
-    /// Whether a place is in the bulk and the packing goes on around it for at least `margin` more.
+    /// Whether a place is in the bulk and the packing extends for at least `margin` more around it.
     bool in_bulk(const Imath::V3d& place, double margin = 0) const;
-    /// How far a line runs within the bulk from a place there, at most `most`.
+    /// The distance along a line from a place in the bulk to the end of the bulk, at most `most`.
     double way_in_bulk(const Imath::V3d& place, const Imath::V3d& direction, double most) const;
-    /// Distance from the surface of a mesh, negative outside; infinite in other containers.
+    /// Signed distance from a mesh's surface, negative outside; infinite in other containers.
     double depth(const Imath::V3d& place) const;
     /// Whether a place is inside any sphere.
     bool covered(const Imath::V3d& place) const;
@@ -82,11 +83,11 @@ public:
     struct Neighbour {
         uint64_t index;
         double radius;
-        Imath::V3d offset; ///< from the place to the (image's) centre
+        Imath::V3d offset; ///< from the place to the centre of the sphere or image
     };
 
-    /// Calls visit(neighbour) for every sphere or image nearer to the place than stretch (add + its radius), and for
-    /// some others; stops and returns false when visit returns false.
+    /// Calls visit(neighbour) for every sphere or image nearer to the place than stretch * (add + its radius), and for
+    /// some others. Stops and returns false when visit returns false.
     template <class Visit>
     bool visit_near(const Imath::V3d& place, double add, double stretch, const Visit& visit) const
     {
@@ -103,11 +104,11 @@ public:
         return going;
     }
 
-    /// The index of sphere `rank`, from 0, in an order that keeps neighbours together.
+    /// The index of the sphere at a rank, counted from 0, in an order that keeps neighbours together.
     uint64_t ranked(uint64_t rank) const { return entry(rank).index; }
 
-    /// Calls visit(neighbour) for each pair (once), images included, with d < stretch (r_i + r_j) whose first sphere is
-    /// ranked(rank); returns false, having left some out, when there are thousands: radii that are wrong.
+    /// Calls visit(neighbour) once for each pair, images included, with d < stretch * (r_i + r_j) whose first sphere is
+    /// ranked(rank). Returns false, with some pairs left out, if there are thousands: the radii must be wrong.
     template <class Visit>
     bool visit_pairs(uint64_t rank, double stretch, const Visit& visit) const
     {
@@ -120,7 +121,8 @@ public:
             visit_images(self.position, reach, [&](const Imath::V3d& image, int side) {
                 complete = complete && grid_->visit_near(level, image, reach, [&](const SphereGrid::Entry& e) {
                     if (++candidates > 4096) return false;
-                    // Of two of one level the lower index asks; of two images of itself a sphere asks for one.
+                    // Count each pair once: in one level from the lower index; a sphere with its own image, on one
+                    // side.
                     if (level == own && (e.index < self.index || (e.index == self.index && side <= 0))) return true;
                     const Imath::V3d offset = e.position - image;
                     const double radius = radius_of(e), touch = stretch * (radius_of(self) + radius);
@@ -132,11 +134,11 @@ public:
         return complete;
     }
 
-    /// The spheres of the bulk around which the packing goes on for `margin` more; where they are more than `most`, so
-    /// many in a block around their middle. Ascending.
+    /// The bulk spheres around which the packing extends for `margin` more; if there are more than `most`, that many in
+    /// a block around their middle. Ascending.
     std::vector<uint64_t> central_block(uint64_t most, double margin) const;
 
-    /// Every sphere or image whose centre lies in a box along the axes: calls visit(index, centre).
+    /// Calls visit(index, centre) for every sphere or image whose centre lies in an axis-aligned box.
     void visit_box(const Imath::Box3d& box, const std::function<void(uint64_t, const Imath::V3d&)>& visit) const;
 
 private:
@@ -152,8 +154,8 @@ private:
     Imath::V3d wrapped(Imath::V3d place) const;
     size_t level_of(uint64_t rank) const;
 
-    /// Calls f(image of the place, side) for the images within reach of what lies in the box; side: 0 for the place
-    /// itself, else 1 or -1, of which the opposite image has the other.
+    /// Calls f(image, side) for every image of the place that is within `reach` of the box. side: 0 for the place
+    /// itself, else 1 or -1; opposite images have opposite sides.
     template <class F>
     void visit_images(const Imath::V3d& inside, double reach, const F& f) const
     {
@@ -191,7 +193,7 @@ private:
     std::array<double, 3> height_{0, 0, 0};
     Imath::V3d box_lo_{0};
     std::optional<SphereGrid> grid_;
-    bool widened_ = false; ///< radii of the grid's entries are for its cells only
+    bool widened_ = false; ///< the grid's entries have enlarged radii, which serve only to size its cells
 };
 
 } // namespace scree

@@ -17,7 +17,7 @@ double worst_overlap(const PackingReport& r) { return r.near.worst.empty() ? 0 :
 
 bool crystalline(const PackingReport& r)
 {
-    // Without order Q6 is about 1 / sqrt(bonds).
+    // Q6 is about 1 / sqrt(bonds) without order.
     return r.bonds.crystal_fraction > 0.05 ||
            r.bonds.global_q6 > 0.1 + 5 / std::sqrt(double(std::max<uint64_t>(r.bonds.bonds, 1)));
 }
@@ -27,19 +27,19 @@ Claim fraction_claim(const PackingReport& r)
     const SolidFraction& f = r.fraction;
     if (f.points == 0)
         return {"fraction", Verdict::info,
-                "not known: there is no mesh and no periodic box, and too few spheres for a bed"};
-    // What two spheres share is summed twice and hit once.
+                "unknown: there is no mesh and no periodic box, and there are too few spheres for a bed"};
+    // The volume that two spheres share is summed twice but hit once.
     const bool lens_counts = r.near.lens_volume > 1e-6 * f.all_spheres;
     const double shared = lens_counts ? r.near.lens_volume / f.all_spheres * f.by_volume : 0;
     const double expected = f.by_volume - shared;
     const double error = std::sqrt(std::max(0.0, expected * (1 - expected)) / double(f.points));
     if (expected * double(f.points) < 25)
         return {"fraction", Verdict::info,
-                fmt::format("{:.4g} by the spheres' volumes: too little for random points to tell", f.by_volume)};
+                fmt::format("{:.4g} by the spheres' volumes: too small to check with random points", f.by_volume)};
     const double apart = error > 0 ? std::abs(expected - f.by_points) / error : 0;
     std::string text = fmt::format("{:.5f} by the spheres' volumes, {:.5f} ± {:.5f} by {} random points", f.by_volume,
                                    f.by_points, f.by_points_error, f.points);
-    if (lens_counts) text += fmt::format("; without what spheres share where they overlap {:.5f}", expected);
+    if (lens_counts) text += fmt::format("; {:.5f} if volume shared by overlapping spheres counts once", expected);
     return {"fraction", apart <= 4 ? Verdict::pass : Verdict::fail,
             text + fmt::format("; {:.1f} standard errors apart (limit 4)", apart)};
 }
@@ -48,7 +48,7 @@ Claim overlap_claim(const PackingReport& r)
 {
     const double worst = worst_overlap(r);
     const std::string some =
-        r.near.complete ? "" : "; some spheres have thousands of neighbours, and not all pairs were looked at";
+        r.near.complete ? "" : "; some spheres have thousands of neighbours, and not all pairs were checked";
     if (worst == 0)
         return {"overlap", r.near.complete ? Verdict::pass : Verdict::fail, "no two spheres overlap" + some};
     const NearPairs::Overlap& w = r.near.worst.front();
@@ -60,10 +60,10 @@ Claim overlap_claim(const PackingReport& r)
     if (r.source.hard) return {"overlap", Verdict::fail, pairs + "; limit 1e-6"};
     if (worst > soft_overlap)
         return {"overlap", Verdict::fail,
-                pairs +
-                    "; more than the tenth of a radius that soft spheres of simulations reach: are the radii right?"};
+                pairs + "; more than a tenth of a radius, the most that soft spheres of simulations reach: are the "
+                        "radii right?"};
     return {"overlap", Verdict::info,
-            pairs + fmt::format("; mean {:.3g}: as in a simulation of {} spheres", r.near.mean_overlap,
+            pairs + fmt::format("; mean {:.3g}: usual in a simulation of {} spheres", r.near.mean_overlap,
                                 worst < 0.01 ? "stiff" : "soft")};
 }
 
@@ -75,7 +75,7 @@ Claim containment_claim(const PackingReport& r)
             c.worst.empty() ? ""
                             : fmt::format("; least margin {:.3g} (id {})", c.worst.front().margin, c.worst.front().id);
         return {"containment", Verdict::pass,
-                fmt::format("all {} spheres are whole inside the mesh{}", r.spheres, least)};
+                fmt::format("all {} spheres are wholly inside the mesh{}", r.spheres, least)};
     }
     const Containment::Sphere& w = c.worst.front();
     return {"containment", Verdict::fail,
@@ -102,9 +102,7 @@ Claim chord_claim(const PackingReport& r)
 Claim contact_value_claim(const PackingReport& r)
 {
     const PairCorrelation& g = r.correlation;
-    if (g.x_max == 0)
-        return {"contact_value", Verdict::info,
-                "not measured: the packing does not reach far enough around any sphere"};
+    if (g.x_max == 0) return {"contact_value", Verdict::info, "not measured: no sphere is deep enough in the packing"};
     const bool mixed = r.fraction.bulk_moments.polydispersity() > 1e-6;
     const std::string theory = fmt::format(
         "{} {:.4f}",
@@ -116,26 +114,25 @@ Claim contact_value_claim(const PackingReport& r)
                         g.contact.standard_error, g.free_path_contact.value, g.free_path_contact.standard_error);
     if (r.fraction.bulk >= freezing || r.fraction.bulk >= 1) {
         return {"contact_value", Verdict::info,
-                fmt::format("no fluid in equilibrium: f = {:.4f} is above freezing, 0.494; {:.2f} contacts a sphere "
+                fmt::format("no fluid in equilibrium: f = {:.4f} is above freezing, 0.494; {:.2f} contacts per sphere "
                             "instead of a contact value",
                             r.fraction.bulk, r.near.mean_contacts)};
     }
     if (worst_overlap(r) > 1e-3)
-        return {"contact_value", Verdict::info, "spheres overlap, and theory is of hard ones: " + theory};
+        return {"contact_value", Verdict::info, "spheres overlap, but the theory is for hard spheres: " + theory};
     if (crystalline(r)) return {"contact_value", Verdict::info, "crystal, not a fluid: " + measured + "; " + theory};
     const Measured& m = g.best_contact;
-    if (!(m.value > 0)) return {"contact_value", Verdict::info, "too few pairs are near contact to tell; " + theory};
+    if (!(m.value > 0)) return {"contact_value", Verdict::info, "too few pairs near contact to decide; " + theory};
     const double apart = m.value / r.theory_contact - 1, error = m.standard_error / r.theory_contact;
     const std::string text =
         fmt::format("{}; {}: {}, standard error {:.2f} %", measured, theory, percent(apart), 100 * error);
-    if (!r.source.hard)
-        return {"contact_value", Verdict::info, text + " (of a simulation that need not be in equilibrium)"};
+    if (!r.source.hard) return {"contact_value", Verdict::info, text + " (a simulation need not be in equilibrium)"};
     if (!std::isfinite(m.standard_error) || error > 0.1)
-        return {"contact_value", Verdict::info, text + ": too few spheres to tell"};
-    // Carnahan and Starling themselves are some 0.3 % off.
+        return {"contact_value", Verdict::info, text + ": too few spheres to decide"};
+    // Carnahan-Starling itself is off by some 0.3 %.
     const bool good = std::abs(apart) <= 0.01 || std::abs(apart) <= 4 * error + 0.003;
     return {"contact_value", good ? Verdict::pass : Verdict::fail,
-            text + " (limit 1 % or 4 standard errors); a fluid in equilibrium has it"};
+            text + " (limit 1 % or 4 standard errors); a fluid in equilibrium is within this limit"};
 }
 
 Claim crystal_claim(const PackingReport& r)
@@ -154,8 +151,8 @@ Claim contacts_claim(const PackingReport& r)
     if (n.bulk_spheres == 0) return {"contacts", Verdict::info, "not measured: no bulk"};
     const double rattlers = 100 * double(n.rattlers) / double(n.bulk_spheres);
     return {"contacts", Verdict::info,
-            fmt::format("{:.3f} contacts a sphere at gaps below {:g} mean radii; {:.2f} % rattlers, {:.3f} contacts "
-                        "among the others (isostatic without friction: 6)",
+            fmt::format("{:.3f} contacts per sphere at gaps below {:g} mean radii; {:.2f} % rattlers, {:.3f} contacts "
+                        "per sphere without rattlers (isostatic without friction: 6)",
                         n.mean_contacts, NearPairs::contact_tolerance, rattlers, n.mean_contacts_without_rattlers)};
 }
 
@@ -176,14 +173,15 @@ Claim isotropy_claim(const PackingReport& r)
 Claim cells_claim(const PackingReport& r)
 {
     const LaguerreCells& c = r.cells;
-    if (c.cells == 0) return {"cells", Verdict::info, "not measured: no sphere of the bulk has a cell of its own"};
+    if (c.cells == 0) return {"cells", Verdict::info, "not measured: no sphere of the bulk has a bounded cell"};
     const std::string local =
         fmt::format("local fraction {:.4f}, deviation {:.4f}, over {} cells", c.mean, c.deviation, c.cells);
     if (!c.whole_box)
         return {"cells", Verdict::info, local + fmt::format("; {:.4f} by volume", c.sphere_volume / c.cell_volume)};
     const double apart = c.cell_volume / r.fraction.container_volume - 1;
     return {"cells", std::abs(apart) <= 1e-9 ? Verdict::pass : Verdict::fail,
-            local + fmt::format("; their volumes add up to the box's within {:.1g} (limit 1e-9)", std::abs(apart))};
+            local + fmt::format("; the cells' volumes add up to the box's volume within {:.1g} (limit 1e-9)",
+                                std::abs(apart))};
 }
 
 Claim radii_claim(const PackingReport& r)
@@ -191,7 +189,7 @@ Claim radii_claim(const PackingReport& r)
     const RadiusStatistics& s = r.radii;
     if (s.distinct == 1) return {"radii", Verdict::info, fmt::format("all {:.6g}", s.mean)};
     return {"radii", Verdict::info,
-            fmt::format("{} sizes, {:.6g} to {:.6g}; mean {:.6g}, standard deviation {:.4g} ({:.2f} % of it)",
+            fmt::format("{} sizes, {:.6g} to {:.6g}; mean {:.6g}, standard deviation {:.4g} ({:.2f} % of the mean)",
                         s.distinct, s.least, s.greatest, s.mean, s.deviation, 100 * s.deviation / s.mean)};
 }
 

@@ -17,11 +17,12 @@ std::string container_words(const PackedSpheres& spheres, const PackingSource& s
     case Container::periodic_box:
         return fmt::format("the periodic box of edges {} {} {}", words_of(e[0]), words_of(e[1]), words_of(e[2]));
     case Container::bed:
-        return fmt::format("the middle of the bed, {} to {}: between the quartiles of the centres, and whole periods",
+        return fmt::format("the middle of the bed, {} to {}: from quartile to quartile of the centres along each axis, "
+                           "or a whole period",
                            words_of(spheres.bed().min), words_of(spheres.bed().max));
     case Container::none: break;
     }
-    return "none: too few spheres for a bed, and no periodic box or mesh";
+    return "none: no mesh, no periodic box, and too few spheres for a bed";
 }
 
 } // namespace
@@ -50,7 +51,7 @@ PackingReport make_packing_report(const PackedSpheres& spheres, PackingSource so
             report.theory_contact = bmcsl_contact(report.fraction.bulk, report.fraction.bulk_moments);
     } else if (spheres.container() != PackedSpheres::Container::none) {
         report.source.notes.push_back(
-            "no sphere lies three largest radii below the surface: what is said of the bulk is left out");
+            "no sphere lies three largest radii below the surface: measurements of the bulk are left out");
     }
     report.claims = claims_of(report);
     return report;

@@ -25,23 +25,23 @@ enum class Verdict { pass, fail, info };
 /// "PASS", "FAIL", "INFO".
 const char* word_of(Verdict verdict);
 
-/// One thing a packing is held to be, and whether it is, with the numbers.
+/// One property that a packing should have, and whether it has it, with the numbers.
 struct Claim {
-    std::string key; ///< a word, the same in every report
+    std::string key; ///< a name, the same in every report
     Verdict verdict = Verdict::info;
     std::string text;
 };
 
-/// Where a packing comes from, in words.
+/// Describes in words where a packing comes from.
 struct PackingSource {
     std::string file, mesh;
     std::vector<std::pair<std::string, std::string>> facts; ///< name and value, for the head of the report
     std::vector<std::string> notes;
-    /// Whether the spheres are held to the overlap of at most 1e-6 of tiles and fills; those of a simulation are not.
+    /// Whether overlaps must be at most 1e-6, as in tiles and fills; a simulation's spheres may overlap more.
     bool hard = false;
 };
 
-/// Everything that is measured of a packing, and what follows.
+/// All measurements of a packing, and the claims that follow.
 struct PackingReport {
     PackingSource source;
     std::string container; ///< in words
@@ -59,13 +59,13 @@ struct PackingReport {
     std::vector<Claim> claims;
 };
 
-/// Measures it all. The same for the same spheres on any number of threads. Throws Cancelled.
+/// Measures everything. The same spheres give the same report on any number of threads. Throws Cancelled.
 PackingReport make_packing_report(const PackedSpheres& spheres, PackingSource source, const Progress& progress = {});
 
-/// What the measurements say; make_packing_report has done it.
+/// Judges the measurements; make_packing_report already calls this.
 std::vector<Claim> claims_of(const PackingReport& report);
 
-/// All the numbers.
+/// All numbers of the report as JSON.
 nlohmann::json json_of(const PackingReport& report);
 
 } // namespace scree

@@ -33,7 +33,7 @@ size_t block_of(const PackedSpheres& spheres, uint64_t i)
 /// Mean of (r + s)^3 over the other spheres' radii s.
 double mean_cube(double r, const RadiusMoments& m) { return r * r * r + 3 * r * r * m.m[1] + 3 * r * m.m[2] + m.m[3]; }
 
-/// Pairs counted in bins of x, and what spheres without correlation would give, in units of the bin's shell.
+/// Pair counts in bins of x, and the sum that gives their expectation without correlation, per unit of a bin's shell.
 struct Shells {
     std::vector<uint64_t> pairs;
     double cubes = 0; ///< sum of mean_cube over the centres
@@ -60,12 +60,12 @@ double shell_volume(double x, double width)
     return 4.0 / 3 * std::numbers::pi * (std::pow(x + width, 3) - x * x * x);
 }
 
-/// Counts the spheres around sphere i. once: pairs are counted twice for their lower index, and not for the other.
+/// Counts the spheres around sphere i. once: a pair counts twice from its lower index, and not from the other.
 void count_around(const PackedSpheres& spheres, uint64_t i, double first, double width, size_t bins, bool once,
                   Shells& shells)
 {
     const double r = spheres.radius(i), x_max = first + width * double(bins);
-    // With far more neighbours than there is room for, radii or places are nonsense, and work must end.
+    // If there are far more neighbours than can fit, radii or places are wrong, and the search must end.
     const double expected = 4.0 / 3 * std::numbers::pi * std::pow(x_max, 3) * mean_cube(r, spheres.moments()) *
                             double(spheres.size()) / std::max(spheres.volume(), 1e-300);
     const double most = 5000 + 100 * expected;
@@ -82,8 +82,8 @@ void count_around(const PackedSpheres& spheres, uint64_t i, double first, double
     ++shells.centres;
 }
 
-/// The largest x to measure to: 5, or less where the packing does not reach as far around at least a tenth of the
-/// bulk's spheres.
+/// The largest x to measure: 5, or less if the packing does not extend that far around at least a tenth of the bulk's
+/// spheres.
 double choose_x_max(const PackedSpheres& spheres)
 {
     if (spheres.container() == PackedSpheres::Container::periodic_box) return 5;
@@ -100,7 +100,7 @@ double choose_x_max(const PackedSpheres& spheres)
     return 0;
 }
 
-/// ln g = a + b (x - 1) + c (x - 1)^2 by least squares weighted with the counts: e^a. Nothing where bins are empty.
+/// e^a from a least-squares fit ln g = a + b (x - 1) + c (x - 1)^2, weighted with the counts; 0 if a bin is empty.
 double fitted_contact(const Shells& shells, double number_density, double width)
 {
     double s[5] = {}, t[3] = {};
@@ -124,13 +124,13 @@ double fitted_contact(const Shells& shells, double number_density, double width)
     return whole != 0 ? std::exp(first / whole) : 0;
 }
 
-/// A value, and what the jackknife makes of it: its deviations when each block in turn is left out.
+/// A value, and its jackknife deviations: one for each block, with that block left out.
 struct Replicates {
     double value = 0;
     std::array<double, block_count> deviation{};
     uint64_t used = 0;
 
-    /// Covariance of two values of the same blocks; infinite where blocks are too few.
+    /// Covariance of two values over the same blocks; infinite if there are too few blocks.
     static double covariance(const Replicates& a, const Replicates& b)
     {
         const double n = double(std::min(a.used, b.used));
@@ -142,10 +142,10 @@ struct Replicates {
     Measured measured() const { return {value, std::sqrt(covariance(*this, *this))}; }
 };
 
-/// value(block) is that without the block, value(block_count) that of the whole.
+/// value(block) is the value without that block; value(block_count) is the value of all blocks.
 ///
-/// A block with more spheres has a higher value, but as the number of spheres is given in all, that is no error of the
-/// whole: the part of the scatter that follows the blocks' counts is taken out by regression.
+/// A block with more spheres has a higher value. The total number of spheres is given, so this scatter is no error of
+/// the total: the part that follows the blocks' counts is removed by regression.
 template <class Value>
 Replicates jackknife(const std::array<uint64_t, block_count>& counts, const Value& value)
 {
@@ -172,7 +172,7 @@ Replicates jackknife(const std::array<uint64_t, block_count>& counts, const Valu
     return result;
 }
 
-/// w a + (1 - w) b of least variance.
+/// w a + (1 - w) b, with the w of least variance.
 Measured combined(const Replicates& a, const Replicates& b)
 {
     const double aa = Replicates::covariance(a, a), bb = Replicates::covariance(b, b),
@@ -184,7 +184,7 @@ Measured combined(const Replicates& a, const Replicates& b)
 }
 
 struct PathSums {
-    std::array<double, block_count> ends{}, expected{}; ///< (2 / l) (s_1 + s_2), and 4 pi <s^3>
+    std::array<double, block_count> ends{}, expected{}; ///< sums of (2 / l) (s_1 + s_2) and of 4 pi <s^3>
     std::array<uint64_t, block_count> spheres{};
     double inverse = 0; ///< sum of s / l
     uint64_t paths = 0;
@@ -200,7 +200,7 @@ struct PathSums {
     }
 };
 
-/// What a sphere meets when it moves: how far it gets, and the sum of radii there.
+/// The first collision of a moving sphere: the distance to it, and the sum of the two radii.
 struct Collision {
     double way = infinity, touch = 0;
 };
@@ -213,7 +213,7 @@ void collide(const V3d& offset, double touch, const V3d& direction, double from,
     if (way >= from && way < nearest.way) nearest = {way, touch};
 }
 
-/// Marches on by steps from `from`, where the nearest collision is not nearer.
+/// Finds the nearest collision by marching in steps from the distance `from`; no collision is nearer than `from`.
 Collision march(const PackedSpheres& spheres, const V3d& start, double radius, const V3d& direction, double from,
                 double step)
 {
@@ -224,7 +224,7 @@ Collision march(const PackedSpheres& spheres, const V3d& start, double radius, c
             collide(n.offset + (middle - start), radius + n.radius, direction, from, nearest);
             return true;
         });
-        if (nearest.way > from + step) nearest = {}; // one beyond this step need not be the first
+        if (nearest.way > from + step) nearest = {}; // beyond this step, a nearer collision may still be unknown
     }
     return nearest;
 }
@@ -237,7 +237,7 @@ V3d direction_of(uint64_t index)
     return {s * std::cos(phi), s * std::sin(phi), z};
 }
 
-/// way: up to here collisions are looked for among the spheres near i; most paths are shorter.
+/// way: collisions up to this distance are searched among the spheres near i; most paths are shorter.
 void free_paths_of(const PackedSpheres& spheres, uint64_t i, uint64_t directions, double way,
                    std::vector<std::pair<V3d, double>>& near, PathSums& sums)
 {
@@ -251,7 +251,7 @@ void free_paths_of(const PackedSpheres& spheres, uint64_t i, uint64_t directions
         if (d2 < (known + n.radius) * (known + n.radius)) near.emplace_back(n.offset, touch);
         return free && near.size() < 4096;
     });
-    if (!free) return; // overlapping spheres have no way to move
+    if (!free) return; // overlapping spheres cannot move
     const size_t block = block_of(spheres, i);
     ++sums.spheres[block];
     for (uint64_t k = 0; k < directions; ++k) {
@@ -285,7 +285,7 @@ PairCorrelation measure_pair_correlation(const PackedSpheres& spheres, double nu
     const double around =
         number_density * 4 / 3 * std::numbers::pi * mean_cube(spheres.moments().m[1], spheres.moments());
     const double margin = 2 * result.x_max * spheres.largest_radius();
-    // A sphere is asked when its hash is below a share of all: the same choice everywhere, and blind to order in the
+    // A sphere is chosen if its hash is below a share of the range: reproducible, and independent of the order in the
     // file.
     const auto chosen = [&](uint64_t i, double share) { return unit_double(hash_index(i, choice_seed)) < share; };
     const auto share_of = [&](double budget, double cost) {
@@ -318,7 +318,7 @@ PairCorrelation measure_pair_correlation(const PackedSpheres& spheres, double nu
     const double width = (PairCorrelation::fit_end - 1) / double(near_bins),
                  near_share = share_of(near_budget, 8 * around);
     const double near_margin = 2 * PairCorrelation::fit_end * spheres.largest_radius();
-    // A pair that two blocks share must not be in both, or the jackknife would miss part of its scatter.
+    // A pair across two blocks must not count in both, or the jackknife would miss part of the scatter.
     const bool once = near_share >= 1 && spheres.container() == PackedSpheres::Container::periodic_box;
     const BlockedShells near =
         ordered_sum<BlockedShells>(spheres.size(), 8192, "contact value", progress, [&](uint64_t begin, uint64_t end) {
@@ -341,14 +341,14 @@ PairCorrelation measure_pair_correlation(const PackedSpheres& spheres, double nu
         return fitted_contact(sum, number_density, width);
     });
     result.contact = fitted.measured();
-    result.fitted_pairs /= 2; // each was counted from both ends
+    result.fitted_pairs /= 2; // each pair was counted from both ends
 
-    // The mean way of one side of a point-like sphere among others, and how far one looks before marching on.
+    // The mean free path of a sphere in one direction, and the distance searched at once before marching.
     const RadiusMoments& m = spheres.moments();
     const double mean_way = 1 / (number_density * std::numbers::pi * (2 * m.m[2] + 2 * m.m[1] * m.m[1])),
                  spacing = 1 / std::cbrt(number_density);
     const double way = std::min(2 * mean_way, 2 * spacing);
-    if (mean_way > 10 * spacing) { // too dilute for paths, and for contacts to matter
+    if (mean_way > 10 * spacing) { // too dilute: free paths are too long, and contacts too rare to matter
         result.best_contact = result.contact;
         return result;
     }

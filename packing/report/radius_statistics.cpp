@@ -27,7 +27,7 @@ RadiusStatistics measure_radii(const PackedSpheres& spheres)
         second += d * d / n;
         third += d * d * d / n;
     }
-    // Equal radii must not show the rounding of their mean.
+    // The deviation of equal radii must be 0, not the rounding of their mean.
     if (result.least < result.greatest) {
         result.deviation = std::sqrt(second) * result.greatest;
         result.skewness = third / std::pow(second, 1.5);

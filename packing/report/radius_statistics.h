@@ -7,10 +7,10 @@
 
 namespace scree {
 
-/// How the radii are distributed, by number.
+/// The distribution of the radii, by number.
 struct RadiusStatistics {
     double least = 0, greatest = 0, mean = 0, deviation = 0, skewness = 0;
-    uint64_t distinct = 0; ///< different values
+    uint64_t distinct = 0; ///< number of different values
     std::vector<std::pair<double, uint64_t>>
         sizes; ///< the values and their spheres, ascending, where there are at most 12
     double bin_first = 0, bin_width = 0;

@@ -78,7 +78,7 @@ std::string figures(const std::vector<Plot>& plots)
     return html + "</div>\n";
 }
 
-/// The claims of these keys, then what belongs to them; a single plot stands beside the text.
+/// A section with the claims of these keys, then further text; a single plot is put beside the text.
 std::string section(const PackingReport& r, const std::string& title, const std::vector<std::string>& keys,
                     const std::string& about, const Rows& rows, const std::vector<Plot>& plots,
                     const std::string& more = "")
@@ -126,9 +126,9 @@ std::string fraction_section(const PackingReport& r)
                     {"fraction of the bulk",
                      fmt::format("{:.6f}{}", f.bulk, f.bulk_error > 0 ? fmt::format(" ± {:.6f}", f.bulk_error) : "")}};
     const std::string about =
-        r.containment ? "Spheres of a fill are whole, so that their fraction falls towards the surface; the bulk "
-                        "begins three largest radii below it."
-                      : "Spheres that overlap make the first way larger than the second by what they share.";
+        r.containment ? "A fill has whole spheres only, so the fraction falls towards the surface; the bulk begins "
+                        "three largest radii below the surface."
+                      : "Where spheres overlap, the fraction by volume counts their shared volume twice.";
     return section(r, "Solid fraction", {"fraction", "profile"}, about, rows, {plot_profiles(r)});
 }
 
@@ -160,8 +160,8 @@ std::string containment_section(const PackingReport& r)
                              s.id, s.margin, s.radius, s.position.x, s.position.y, s.position.z);
     table += "</tbody>\n</table>\n";
     return section(r, "Containment", {"containment"},
-                   "Margin: distance of the centre from the surface (negative outside) less the radius. Whether a "
-                   "sphere is whole inside is decided exactly.",
+                   "Margin: distance of the centre from the surface (negative outside) minus the radius. The test "
+                   "whether a sphere is wholly inside is exact.",
                    {}, {plot_margins(c)}, c.worst.empty() ? "" : table);
 }
 
@@ -183,7 +183,7 @@ std::string correlation_section(const PackingReport& r)
     const PairCorrelation& g = r.correlation;
     if (g.x_max == 0) return section(r, "Pair correlation", {"contact_value"}, "", {}, {});
     Rows rows{{"around", fmt::format("{} spheres, out to x = {:g}", g.centres, g.x_max)}};
-    if (r.fraction.bulk < 0.494) { // a peak as narrow as that of a jammed packing cannot be extrapolated
+    if (r.fraction.bulk < 0.494) { // the narrow peak of a jammed packing cannot be extrapolated
         rows.emplace_back("g(1+) by extrapolation",
                           fmt::format("{:.5g} ± {:.2g}, {} pairs up to x = {:g}", g.contact.value,
                                       g.contact.standard_error, g.fitted_pairs, PairCorrelation::fit_end));
@@ -196,8 +196,8 @@ std::string correlation_section(const PackingReport& r)
     }
     if (g.free_paths > 0) rows.emplace_back("reduced pressure PV/NkT", number(g.reduced_pressure));
     return section(r, "Pair correlation", {"contact_value"},
-                   "Free paths: along a random line a sphere in equilibrium is anywhere between the two others it "
-                   "would hit, which gives the contact value without extrapolation. "
+                   "Free paths: on a random line, a sphere in equilibrium is equally likely to be anywhere between the "
+                   "two spheres it would hit; this gives the contact value without extrapolation. "
                    "Errors are jackknife estimates over 64 blocks of space.",
                    rows, {plot_pair_correlation(r), plot_contact_value(r)});
 }
@@ -211,10 +211,10 @@ std::string chord_section(const PackingReport& r)
         {"expected", number(c.expected)},
         {"lines", fmt::format("{} of {:.5g} in all, {} entries into spheres", c.lines, c.length, c.entries)}};
     return section(r, "Void chords", {"chords"},
-                   "The mean is the length in voids over the number of entries into spheres, on pieces of isotropic "
-                   "lines chosen without regard to the spheres: chords cut by the pieces' ends do not bias it. "
-                   "It is exact for spheres that do not overlap, whatever their order; the distribution is close to "
-                   "exponential where they are disordered.",
+                   "The mean is the length in voids divided by the number of entries into spheres, on pieces of "
+                   "isotropic lines chosen independently of the spheres: chords cut by the pieces' ends cause no bias. "
+                   "It is exact for spheres that do not overlap, in any arrangement; the distribution is close to "
+                   "exponential if the spheres are disordered.",
                    rows, {plot_void_chords(c)});
 }
 
@@ -230,13 +230,13 @@ std::string order_section(const PackingReport& r)
     };
     const Rows rows{{"global Q4 and Q6", fmt::format("{:.5f} and {:.5f}", b.global_q4, b.global_q6)},
                     {"mean local q4 and q6", fmt::format("{:.5f} and {:.5f}", b.mean_local_q4, b.mean_local_q6)},
-                    {"near neighbours", fmt::format("{:.3f} a sphere", b.mean_neighbours)},
+                    {"near neighbours", fmt::format("{:.3f} per sphere", b.mean_neighbours)},
                     {"crystal-like", fmt::format("{:.3f} % of {} spheres", 100 * b.crystal_fraction, b.spheres)},
                     {"fabric of contacts", fabric(r.near.fabric)},
                     {"fabric of neighbours", fabric(b.fabric)}};
     return section(r, "Order and anisotropy", {"crystal", "isotropy"},
-                   "Crystal-like: at least seven neighbours with whose bonds its own agree (normalised product of q6 "
-                   "above 0.7; Steinhardt et al. 1983, ten Wolde et al. 1996).",
+                   "Crystal-like: the sphere's bonds agree with those of at least seven neighbours (normalised product "
+                   "of q6 above 0.7; Steinhardt et al. 1983, ten Wolde et al. 1996).",
                    rows, {plot_bond_order(b)});
 }
 
@@ -255,13 +255,13 @@ std::string html_of(const PackingReport& r)
     if (r.containment) html += containment_section(r);
     html += radii_section(r) + correlation_section(r) + chord_section(r);
     const NearPairs& n = r.near;
-    const Rows contacts{{"contacts a sphere", fmt::format("{:.4f}", n.mean_contacts)},
+    const Rows contacts{{"contacts per sphere", fmt::format("{:.4f}", n.mean_contacts)},
                         {"rattlers", fmt::format("{} of {}", n.rattlers, n.bulk_spheres)},
                         {"contacts without rattlers", fmt::format("{:.4f}", n.mean_contacts_without_rattlers)}};
     html += section(r, "Contacts", {"contacts"},
-                    "A jammed packing shows a plateau near the isostatic number over decades of tolerance; where there "
-                    "is none, the number of contacts is what the tolerance makes it. "
-                    "Rattlers have fewer than four contacts, taken out again and again.",
+                    "A jammed packing shows a plateau near the isostatic number over decades of tolerance; without a "
+                    "plateau, the number of contacts depends on the tolerance. "
+                    "Rattlers are spheres with fewer than four contacts, removed repeatedly.",
                     n.bulk_spheres > 0 ? contacts : Rows{},
                     n.bulk_spheres > 0 ? std::vector<Plot>{plot_contacts(n), plot_contact_numbers(n)}
                                        : std::vector<Plot>{});
@@ -271,7 +271,7 @@ std::string html_of(const PackingReport& r)
                      {"least and greatest", fmt::format("{:.5f} and {:.5f}", c.least, c.greatest)},
                      {"hidden or unbounded", fmt::format("{} and {}", c.hidden, c.unbounded)}};
     html += section(r, "Laguerre cells", {"cells"},
-                    "The power tessellation, weights r²; of large packings a block in the middle.",
+                    "The power tessellation with weights r²; of large packings, a block in the middle.",
                     c.cells > 0 ? cells : Rows{}, c.cells > 0 ? std::vector<Plot>{plot_cells(c)} : std::vector<Plot>{});
     return html + order_section(r) + "</main>\n</body>\n</html>\n";
 }

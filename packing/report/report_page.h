@@ -6,8 +6,8 @@
 
 namespace scree {
 
-/// The report as one HTML page with its plots inside: needs no network and no script. Well-formed XML, the same for the
-/// same report.
+/// The report as one HTML page that contains its plots and needs no network and no script. Well-formed XML; equal
+/// reports give equal pages.
 std::string html_of(const PackingReport& report);
 
 } // namespace scree

@@ -12,7 +12,7 @@ namespace {
 
 using Style = PlotSeries::Style;
 
-constexpr double nearly_one_size = 0.03; // polydispersity up to which Percus-Yevick for one size is worth drawing
+constexpr double nearly_one_size = 0.03; // greatest polydispersity at which Percus-Yevick for one size is plotted
 
 std::vector<double> edges_of(double first, double width, size_t bins)
 {
@@ -21,7 +21,7 @@ std::vector<double> edges_of(double first, double width, size_t bins)
     return edges;
 }
 
-/// Counts as a share of their sum, from the first to the last bin that has any.
+/// The counts over their sum, from the first to the last nonzero bin.
 PlotSeries shares(const std::string& name, double first, double width, const std::vector<uint64_t>& counts)
 {
     double sum = 0;
@@ -34,7 +34,7 @@ PlotSeries shares(const std::string& name, double first, double width, const std
     return s;
 }
 
-/// A curve of Percus-Yevick's g from contact to x_max.
+/// Percus-Yevick's g from contact to x_max.
 PlotSeries percus_yevick_curve(double fraction, double x_max)
 {
     constexpr int steps = 200;
@@ -83,7 +83,7 @@ Plot plot_profiles(const PackingReport& report)
 {
     const bool mesh = report.containment.has_value();
     Plot plot{"Solid fraction in slices",
-              mesh ? "depth below the surface, in mean radii" : "place along the axis, as a part of it",
+              mesh ? "depth below the surface, in mean radii" : "place along the axis, from 0 to 1",
               "solid fraction",
               false,
               false,
@@ -114,7 +114,7 @@ Plot plot_profiles(const PackingReport& report)
 Plot plot_overlaps(const NearPairs& near)
 {
     Plot plot{"Overlaps",
-              "overlap, in smaller radii",
+              "overlap / smaller radius",
               "pairs",
               true,
               true,
@@ -170,7 +170,7 @@ Plot plot_pair_correlation(const PackingReport& report)
     if (has_theory(report) && report.fraction.bulk_moments.polydispersity() < nearly_one_size)
         plot.series.push_back(percus_yevick_curve(report.fraction.bulk, g.x_max));
     plot.x_range = {0, g.x_max};
-    // The peak at contact of a jammed packing is a line: it would flatten all the rest.
+    // The contact peak of a jammed packing is so high that all else would look flat.
     const double most = *std::max_element(g.g.begin(), g.g.end());
     plot.y_range = {0, std::min(1.08 * most, 8.0)};
     return plot;
@@ -203,7 +203,7 @@ Plot plot_contacts(const NearPairs& near)
 {
     Plot plot{"Contacts against tolerance",
               "gap that counts as contact, in mean radii",
-              "contacts a sphere",
+              "contacts per sphere",
               true,
               false,
               {},
@@ -236,7 +236,7 @@ Plot plot_contact_numbers(const NearPairs& near)
 
 Plot plot_void_chords(const VoidChords& chords)
 {
-    Plot plot{"Void chords",       "chord, in expected means", "probability density", false, true, {}, {},
+    Plot plot{"Void chords",       "chord / expected mean", "probability density", false, true, {}, {},
               std::pair(0.0, 8.0), std::pair(1e-4, 2.0)};
     PlotSeries measured{"measured", Style::dots, {}, {}, {}},
         exponential{"exponential", Style::dashes, {0, 9}, {1, std::exp(-9)}, {}};

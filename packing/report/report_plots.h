@@ -5,14 +5,14 @@
 
 namespace scree {
 
-/// The plots of a report; each needs what it shows to have been measured.
+/// The plots of a report; each needs a measurement of what it shows.
 Plot plot_radii(const RadiusStatistics& radii);
 Plot plot_profiles(const PackingReport& report);
 Plot plot_overlaps(const NearPairs& near);
 Plot plot_margins(const Containment& containment);
-/// g(x) with Percus-Yevick where the spheres are nearly of one size.
+/// g(x), with the Percus-Yevick curve if the spheres are nearly of one size.
 Plot plot_pair_correlation(const PackingReport& report);
-/// The same close to contact, with the contact values.
+/// g(x) near contact, with the contact values.
 Plot plot_contact_value(const PackingReport& report);
 Plot plot_contacts(const NearPairs& near);
 Plot plot_contact_numbers(const NearPairs& near);

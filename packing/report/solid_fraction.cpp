@@ -58,7 +58,7 @@ FractionProfile depth_profile(const PackedSpheres& spheres, const Progress& prog
 {
     const size_t bins = static_cast<size_t>(depth_in_radii * bins_per_radius);
     const double width = spheres.moments().m[1] / bins_per_radius;
-    // Exact distances are dear, and a percent for a bin is enough for the eye.
+    // Exact distances are expensive, and an error of one per cent per bin is not visible.
     ProfileCounts counts = ordered_sum<ProfileCounts>(
         point_count / 8, chunk_size / 8, "fraction against depth", progress, [&](uint64_t begin, uint64_t end) {
             ProfileCounts part{std::vector<uint64_t>(bins), std::vector<uint64_t>(bins)};
@@ -78,7 +78,7 @@ FractionProfile depth_profile(const PackedSpheres& spheres, const Progress& prog
     return {"depth", 0, width, std::move(counts.points), std::move(counts.hits)};
 }
 
-/// Along axis k of the box or of space; `extent` in units of length.
+/// Measures the profile along axis k of the periodic box or of space.
 FractionProfile axis_profile(const PackedSpheres& spheres, size_t k, const Progress& progress)
 {
     const bool box = spheres.container() == PackedSpheres::Container::periodic_box;
@@ -192,7 +192,7 @@ SolidFraction measure_fraction(const PackedSpheres& spheres, const Progress& pro
         result.bulk = double(counts.bulk_hits) / double(counts.bulk_points);
         result.bulk_error = binomial_error(result.bulk, counts.bulk_points);
     }
-    if (container != Container::mesh) { // all of it is bulk, and the spheres' volumes are summed up in it
+    if (container != Container::mesh) { // all of it is bulk, and the spheres' volumes in it are known
         result.bulk = result.by_volume;
         result.bulk_error = 0;
     }

@@ -16,8 +16,8 @@ namespace {
 
 constexpr uint64_t line_seed = 0x6c696e65;
 constexpr double wanted_entries = 8e5, periods_per_line = 48, most_lines = 4e5;
-// A whole chord may start anywhere but in the last so many expected chords of its line: longer ones are cut, which are
-// one in 10^5.
+// A complete chord may start anywhere except in this many expected chords at the end of its line: only longer chords,
+// one in 10^5, are lost.
 constexpr double reserve = 12;
 constexpr size_t density_bins = 80;
 
@@ -41,8 +41,8 @@ struct LineSums {
 
 using Stretch = std::pair<double, double>; // from, to along the line
 
-/// The stretches of start + t direction, 0 <= t <= length, that lie in spheres: sorted, and those that overlap made
-/// one.
+/// Finds the stretches of start + t direction, 0 <= t <= length, that lie in spheres, sorted; overlapping stretches are
+/// merged.
 void solid_stretches(const PackedSpheres& spheres, const V3d& start, const V3d& direction, double length, double step,
                      std::vector<Stretch>& out)
 {
@@ -53,7 +53,7 @@ void solid_stretches(const PackedSpheres& spheres, const V3d& start, const V3d& 
     for (uint64_t k = 0; k < steps; ++k) {
         const double middle = -before + (double(k) + 0.5) * width;
         spheres.visit_near(start + middle * direction, 0.5 * width, 1, [&](const PackedSpheres::Neighbour& n) {
-            // A sphere belongs to the step in which the line comes nearest to its centre.
+            // A sphere belongs to the step that contains the line's nearest point to its centre.
             const double nearest = n.offset.dot(direction);
             if (!(nearest >= -0.5 * width && nearest < 0.5 * width)) return true;
             const double h2 = n.radius * n.radius - (n.offset.length2() - nearest * nearest);
@@ -108,11 +108,11 @@ VoidChords measure_void_chords(const PackedSpheres& spheres, const SolidFraction
     result.expected_error = result.expected * fraction.bulk_error / (fraction.bulk * (1 - fraction.bulk));
     const double period = result.expected + 4.0 / 3 * m.m[3] / m.m[2], length = periods_per_line * period;
     const double step = std::max(2 * m.m[1], 1 / std::cbrt(fraction.number_density()));
-    // Very dilute spheres: fewer lines, so that the steps between them stay some ten million.
+    // For very dilute spheres, fewer lines keep the total number of steps near ten million.
     const double affordable = 1.5e7 / (length / step);
     const auto lines =
         static_cast<uint64_t>(std::clamp(wanted_entries / periods_per_line, 1.0, std::min(most_lines, affordable)));
-    // In a mesh or bed most lines are shorter, so that more are drawn; those that start outside of the bulk are not.
+    // In a mesh or bed most lines are shorter, so more are drawn; lines that start outside the bulk are skipped.
     const bool endless = spheres.container() == PackedSpheres::Container::periodic_box;
     const LineSums sums = ordered_sum<LineSums>(
         endless ? lines : 4 * lines, 128, "void chords", progress, [&](uint64_t begin, uint64_t end) {

@@ -11,26 +11,26 @@ namespace scree {
 
 /// Chords of the voids between the spheres along uniform isotropic random lines.
 ///
-/// The mean is (void length) / (number of times a line enters a sphere) over pieces of lines chosen without regard to
-/// the spheres: both have expectations proportional to the length, so that the ends of the pieces, which cut chords, do
-/// no harm.
+/// The mean is (length in voids) / (number of entries into spheres) over pieces of lines that are chosen independently
+/// of the spheres. The expectations of both are proportional to the length, so chords that are cut by the ends of the
+/// pieces cause no bias.
 struct VoidChords {
     uint64_t lines = 0; ///< 0: there is no bulk to draw lines in
     uint64_t entries = 0;
-    double length = 0; ///< of the lines, in all
-    Measured mean; ///< error from the scatter between lines
-    double expected = 0; ///< 4 (1 - f) <r^3> / (3 f <r^2>) of the bulk, its fraction and its spheres
-    double expected_error = 0; ///< from the fraction's error, where that was measured by points
-    double solid_part = 0; ///< of the lines' length
+    double length = 0; ///< total length of the lines
+    Measured mean; ///< the error follows from the scatter between lines
+    double expected = 0; ///< 4 (1 - f) <r^3> / (3 f <r^2>), with the bulk's fraction and spheres
+    double expected_error = 0; ///< from the error of the fraction, if that was measured by points
+    double solid_part = 0; ///< part of the lines' length that lies in spheres
 
-    /// Density of whole chords that start well before their line's end, in bins of 0.1 of the mean; of probability
-    /// times mean.
+    /// Probability density times the mean, of complete chords that start well before the end of their line, in bins of
+    /// 0.1 of the mean.
     static constexpr double bin_width = 0.1;
     std::vector<double> density;
     uint64_t chords = 0;
 };
 
-/// Throws Cancelled.
+/// Measures chords in the bulk. Throws Cancelled.
 VoidChords measure_void_chords(const PackedSpheres& spheres, const SolidFraction& fraction,
                                const Progress& progress = {});
 

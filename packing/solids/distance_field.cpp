@@ -26,20 +26,20 @@ constexpr double band = 2.5; ///< voxels on either side of the surface whose dis
 constexpr int block = Leaf::DIM; ///< voxels along a block's edge
 static_assert(block == 8);
 
-/// Voxels in space: voxel i is around origin + (i + 1/2) voxel, rounded; that rounded place is what its value belongs
-/// to.
+/// The grid of voxels in space: the centre of voxel i is origin + (i + 1/2) voxel, rounded; the voxel's value belongs
+/// to that rounded place.
 struct Lattice {
     V3d origin{0};
     double voxel = 1;
 
-    /// In voxels lengths have squares, whatever the unit is.
+    /// Computed in voxels, where squares neither overflow nor underflow in any unit.
     double between(const V3d& a, const V3d& b) const { return ((a - b) / voxel).length() * voxel; }
     V3d place(const V3d& index) const { return origin + index * voxel; }
     V3d centre(const openvdb::Coord& c) const { return place(V3d(c.x() + 0.5, c.y() + 0.5, c.z() + 0.5)); }
 };
 
-/// The values of a block: distances in voxels, negative inside (as OpenVDB has it). A voxel that is not active holds
-/// less than its distance.
+/// The values of a block: distances in voxels, negative inside (OpenVDB's convention). A voxel that is not active holds
+/// a lower bound of its distance.
 struct Block {
     bool whole = true; ///< one value, value[0], not active
     std::array<float, block * block * block> value{};
@@ -52,9 +52,10 @@ struct Workspace {
     std::array<NearTriangles, 3> near;
 };
 
-/// Goes down from blocks to voxels. A cube is left as soon as the surface is farther than the band from all its voxels'
-/// centres; they are on the side its middle is on. The middle of a smaller cube is on that side too when it is within
-/// the ball around the larger one's middle that the surface does not reach into; else exact arithmetic tells.
+/// Subdivides blocks down to voxels. A cube is not subdivided further if the surface is farther than the band from the
+/// centres of all its voxels; these centres are then on the same side as the cube's middle. The middle of a smaller
+/// cube is also on that side if it lies in the ball around the larger cube's middle that the surface does not enter;
+/// otherwise exact arithmetic decides.
 class BlockFiller {
 public:
     BlockFiller(const SurfaceTree& surface, const Lattice& lattice, double slack, double scale)
@@ -90,18 +91,18 @@ private:
         return lattice_.place(V3d(first.x() + half, first.y() + half, first.z() + half));
     }
 
-    /// From the middle of a cube to the farthest of its voxels' centres; the middles of smaller cubes in it are nearer.
+    /// Distance from a cube's middle to the farthest of its voxels' centres; the middles of smaller cubes are nearer.
     double half_diagonal(int edge) const
     {
         return std::sqrt(0.75) * (edge - 1) * lattice_.voxel * (1 + 1e-12) + slack_;
     }
 
-    /// A lower bound of the distance from the centres of a cube's voxels.
+    /// A lower bound on the surface's distance from the centres of a cube's voxels.
     double clearance(const Middle& middle, int edge) const { return middle.distance.lo - half_diagonal(edge); }
 
     bool is_clear(const Middle& middle, int edge) const { return clearance(middle, edge) >= band * lattice_.voxel; }
 
-    /// How far from a cube's middle the triangles can be that are the nearest to the centre of one of its voxels.
+    /// The greatest distance from a cube's middle of a triangle that is nearest to the centre of one of its voxels.
     double reach_of_nearest(const Middle& middle, int edge) const
     {
         return middle.distance.hi + 2 * half_diagonal(edge);
@@ -162,8 +163,8 @@ struct DistanceField::Impl {
     Lattice lattice;
     Imath::Box3d bounds; ///< of the domain
     openvdb::Coord voxels; ///< along each axis
-    double slack = 0; ///< what distances may be off by: their rounding, and that of places
-    double error = 0; ///< slack, and the rounding of values to float
+    double slack = 0; ///< error bound of distances: from the rounding of distances and of places
+    double error = 0; ///< slack plus the rounding of values to float
 
     void choose_lattice(int cells);
     void fill(const SurfaceTree& surface);
@@ -176,7 +177,7 @@ void DistanceField::Impl::choose_lattice(int cells)
     const double farthest = std::max({std::abs(bounds.min.x), std::abs(bounds.min.y), std::abs(bounds.min.z),
                                       std::abs(bounds.max.x), std::abs(bounds.max.y), std::abs(bounds.max.z)});
     lattice.voxel = longest / cells;
-    // Beyond the band around the bounds the bounds themselves tell as much.
+    // Beyond the band around the bounds, the bounds alone give the distance well enough.
     const double margin = band + 1;
     lattice.origin = bounds.min - V3d(margin * lattice.voxel);
     for (int k = 0; k < 3; ++k) voxels[k] = static_cast<int>(std::ceil(size[k] / lattice.voxel + 2 * margin));
@@ -192,7 +193,7 @@ void DistanceField::Impl::fill(const SurfaceTree& surface)
     tbb::enumerable_thread_specific<Workspace> workspaces;
     const openvdb::Coord blocks((voxels.x() + block - 1) / block, (voxels.y() + block - 1) / block,
                                 (voxels.z() + block - 1) / block);
-    // A layer of blocks at a time: what waits to be put into the tree stays small.
+    // One layer of blocks at a time, so that few blocks wait for insertion into the tree.
     const auto across = static_cast<size_t>(blocks.y()) * static_cast<size_t>(blocks.z());
     std::vector<Block> layer(across);
     for (int x = 0; x < blocks.x(); ++x) {
@@ -243,7 +244,7 @@ DistanceField::Interval DistanceField::signed_distance(const V3d& point) const
     const openvdb::Coord voxel(static_cast<int>(index.x), static_cast<int>(index.y), static_cast<int>(index.z));
     float value;
     const bool active = f.tree.probeValue(voxel, value);
-    // The distance is 1-Lipschitz: so far it can be from what it is at the voxel's centre.
+    // The distance is 1-Lipschitz: it differs from the value at the voxel's centre by at most this.
     const double away = lattice.between(point, lattice.centre(voxel)) * (1 + 1e-12) + f.error;
     const double distance = -static_cast<double>(value) * lattice.voxel;
     if (active) return {distance - away, distance + away};

@@ -7,17 +7,17 @@
 
 namespace scree {
 
-/// Cheap bounds on the signed distance to a domain's surface, from an OpenVDB level set: where they settle a question,
-/// CGAL need not be asked. Any thread may ask.
+/// Cheap bounds on the signed distance to a domain's surface, from an OpenVDB level set: where these bounds decide a
+/// question, the exact test with CGAL is not needed. Any thread may ask.
 class DistanceField {
 public:
-    /// Signed distance, positive inside, lies in lo..hi (scene units); infinite where nothing is known.
+    /// The signed distance, positive inside, lies in lo..hi (scene units); a bound is infinite where it is unknown.
     struct Interval {
         double lo, hi;
     };
 
-    /// cells: voxels along the longest side of the domain's bounds. A narrow band is stored; beyond it only the sign
-    /// and that the surface is farther than the band. It is never wrong: voxel and float errors are in the interval.
+    /// cells: voxels along the longest side of the domain's bounds. Only a narrow band is stored; beyond it only the
+    /// sign and a lower bound of the distance are known. The interval always holds: it includes voxel and float errors.
     DistanceField(const Domain& domain, int cells = 256);
     ~DistanceField();
     DistanceField(const DistanceField&) = delete;

@@ -21,14 +21,14 @@ struct Domain::Impl {
 
     [[noreturn]] void fail(const MeshDefect& defect) const
     {
-        throw InputError(place, defect.found, "a closed, oriented mesh that does not meet itself", defect.hint);
+        throw InputError(place, defect.found, "a closed, oriented mesh without self-intersections", defect.hint);
     }
 };
 
 namespace {
 
-/// By the divergence theorem. In extended precision: thin walls leave little of large sums. Scaled to about 1 and back,
-/// so that only a result which no double can hold overflows.
+/// The volume by the divergence theorem. In extended precision, because thin walls leave a small difference of large
+/// sums. Scaled to about 1 and back, so that only a result that is too large for a double overflows.
 double enclosed_volume(const TriangleMesh& mesh, const Imath::Box3d& bounds)
 {
     using Wide = Imath::Vec3<long double>;

@@ -12,7 +12,7 @@ namespace scree {
 
 class SurfaceTree;
 
-/// A first thing that is wrong with a mesh as the boundary of a solid, told with its place.
+/// A defect that keeps a mesh from being the boundary of a solid, with its place.
 struct MeshDefect {
     enum class Kind {
         empty,
@@ -28,19 +28,19 @@ struct MeshDefect {
     std::string hint;
 };
 
-/// What keeps the mesh from being the boundary of a solid: empty when nothing does. Checks go from cheap to dear, and
-/// only the first kind of defect met is reported (how many there are, and where the first is).
+/// Finds what keeps the mesh from being the boundary of a solid; empty when nothing does. Checks go from cheap to
+/// expensive, and only the first kind of defect is reported (how many there are, and where the first one is).
 std::vector<MeshDefect> find_defects(const TriangleMesh& mesh);
 
-/// Tries to make a mesh the boundary of a solid (CGAL's soup repair, stitching, small holes filled, orientation); says
-/// in `changes` what was done. The result may still have defects.
+/// Tries to make a mesh the boundary of a solid (CGAL: repairs the soup, stitches borders, fills small holes, orients
+/// faces), and lists in `changes` what was done. The result may still have defects.
 TriangleMesh repair_mesh(const TriangleMesh& mesh, std::vector<std::string>& changes);
 
-/// The solid inside a closed, oriented, non-self-intersecting mesh (several shells and cavities are one solid). Answers
-/// are exact for the vertices as given; all of them may be asked from several threads.
+/// The solid inside a closed, oriented, non-self-intersecting mesh (several shells and cavities form one solid).
+/// Answers are exact for the given vertices. Any thread may ask.
 class Domain {
 public:
-    /// Throws InputError naming `place` and the first defect.
+    /// Throws InputError with `place` and the first defect.
     Domain(TriangleMesh mesh, std::string place);
     ~Domain();
     Domain(const Domain&) = delete;
@@ -52,14 +52,14 @@ public:
     /// By the divergence theorem.
     double volume() const;
 
-    /// Whether the point is in the interior; points of the surface are not.
+    /// Whether the point is in the interior; points on the surface are not.
     bool contains(const Imath::V3d& point) const;
-    /// Whether the whole ball is inside: its centre is, and no triangle is nearer than the radius (equal will do).
-    /// Exact: arithmetic in double with an error bound decides, and exact arithmetic where that does not.
+    /// Whether the whole ball is inside: its centre is inside, and no triangle is nearer than the radius (equal is
+    /// allowed). Exact: double arithmetic with an error bound decides where it can, exact arithmetic elsewhere.
     bool contains_sphere(const Imath::V3d& centre, double radius) const;
     /// Distance to the surface (unsigned, correctly rounded to some 1e-14 of the bounds).
     double distance(const Imath::V3d& point) const;
-    /// The triangles, for questions that are not asked of the whole solid.
+    /// The triangles, for questions about the surface alone.
     const SurfaceTree& surface() const;
 
 private:

@@ -12,13 +12,13 @@ namespace {
 using Imath::V3d;
 using Exact = CGAL::Exact_rational;
 
-/// A point of a triangle near to the origin, and a direction in which the triangle lies as far away as there.
+/// A point of a triangle that is nearly its nearest to the origin, and a direction along which no other is nearer.
 struct Witness {
     V3d nearest, direction;
 };
 
-/// Ericson, Real-Time Collision Detection (2005), 5.1.5: the regions of Voronoi of corners, edges and face. Rounding
-/// may choose the wrong one beside a border; what is proven from the witness does not rest on the choice.
+/// Ericson, Real-Time Collision Detection (2005), 5.1.5: the Voronoi regions of corners, edges and face. Rounding may
+/// choose the wrong region near a border; the proof of the bounds does not depend on the choice.
 Witness nearest_witness(const V3d& a, const V3d& b, const V3d& c)
 {
     const V3d ab = b - a, ac = c - a;
@@ -43,7 +43,7 @@ Witness nearest_witness(const V3d& a, const V3d& b, const V3d& c)
         const V3d p = b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
         return {p, p};
     }
-    // Rounding can let a point outside come here: the weights must still be those of a point of the triangle.
+    // Rounding can bring an outside point here; the weights must still be those of a point of the triangle.
     const double wb = std::max(vb, 0.0), wc = std::max(vc, 0.0), sum = std::max(va, 0.0) + wb + wc;
     if (!(sum > 0)) return {a, a};
     const V3d p = a + ab * (wb / sum) + ac * (wc / sum);
@@ -63,18 +63,18 @@ DistanceBounds bound_distance(const V3d& point, const Corners& triangle, double 
 
     // Let u = 2^-53 and M = farthest; each component of a, b, c is within u M of the truth.
     //
-    // Above: the exact a + s (b - a) + t (c - a) with the s, t >= 0 that were computed, s + t <= 1 + 2u, is within 4 u
+    // Upper bound: the exact a + s (b - a) + t (c - a) with the computed s, t >= 0, s + t <= 1 + 2u, is within 4 u
     // M of a point of the triangle. What was computed for it is within 13 u M in each component (u M of a, 6 u M
     // weighted by s + t for the two products and what they are made of, u M for each sum), 17 sqrt(3) u M < 30 u M in
     // length; the root and the three squares under it add 2.5 u sqrt(3) M, and the last sum 2 u M. Together below 40 u
     // M.
     //
-    // Below: for any direction n the triangle is no nearer than min n.v / |n| over its corners v. A computed n.v is
-    // within 4 u M (|n_x| + |n_y| + |n_z|) <= 7 u M |n|; root, division and difference add 5 u sqrt(3) M. Together
+    // Lower bound: for any direction n the triangle is no nearer than min n.v / |n| over its corners v. A computed n.v
+    // is within 4 u M (|n_x| + |n_y| + |n_z|) <= 7 u M |n|; root, division and difference add 5 u sqrt(3) M. Together
     // below 40 u M.
     //
-    // Underflow: squares of numbers below 2^-500 may vanish, so nothing shorter is claimed and no shorter direction
-    // used; what a product loses is below 2^-570 then.
+    // Underflow: squares of numbers below 2^-500 may vanish, so no shorter distance is claimed and no shorter direction
+    // is used; a product then loses less than 2^-570.
     const double error = farthest * (40 * 0x1p-53) + 0x1p-498;
     DistanceBounds bounds{0, std::sqrt(w.nearest.dot(w.nearest)) + error};
     if (largest(w.direction) >= 0x1p-500) {
@@ -82,7 +82,7 @@ DistanceBounds bound_distance(const V3d& point, const Corners& triangle, double 
         const double support = std::min({w.direction.dot(a), w.direction.dot(b), w.direction.dot(c)});
         bounds.lo = std::max(0.0, support / length - error);
     }
-    // NaN (from overflow or a triangle without area) claims nothing.
+    // NaN (from overflow or a triangle without area) gives no bound.
     if (!(bounds.lo >= 0)) bounds.lo = 0;
     if (!(bounds.hi >= 0)) bounds.hi = HUGE_VAL;
     return bounds;
@@ -108,7 +108,7 @@ ExactVector cross(const ExactVector& a, const ExactVector& b)
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Of the segment a to b from the origin.
+/// Squared distance from the origin to the segment a to b.
 Exact squared_distance_to_segment(const ExactVector& a, const ExactVector& b)
 {
     const ExactVector along = difference(b, a);
@@ -128,7 +128,7 @@ Exact squared_distance(const V3d& point, const Corners& triangle)
     for (int k = 0; k < 3; ++k) {
         const ExactVector &a = v[k], &b = v[(k + 1) % 3];
         nearest = std::min(nearest, squared_distance_to_segment(a, b));
-        // Whether the origin's foot is on the triangle's side of this edge.
+        // The foot of the perpendicular from the origin to the plane must be on the triangle's side of this edge.
         if (dot(cross(normal, difference(b, a)), a) > 0) above = false;
     }
     const Exact area = dot(normal, normal);

@@ -14,19 +14,20 @@ struct DistanceBounds {
     double lo, hi;
 };
 
-/// Proven bounds on the distance from a point to a triangle, some 1e-14 of the farthest corner's distance apart.
+/// Proven bounds on the distance from a point to a triangle; they differ by some 1e-14 of the distance to the farthest
+/// corner.
 ///
-/// scale: a power of two by which differences of places become about 1 in magnitude; the bounds are of the scaled
+/// scale: a power of two that scales differences of places to a magnitude of about 1; the bounds are of the scaled
 /// distance.
 DistanceBounds bound_distance(const Imath::V3d& point, const Corners& triangle, double scale);
 
-/// Whether the triangle is nearer to the point than `distance` (not negative), in exact arithmetic. All finite.
+/// Whether the triangle is nearer to the point than `distance` (not negative), in exact arithmetic. Inputs: finite.
 bool is_nearer_exactly(const Imath::V3d& point, const Corners& triangle, double distance);
 
 /// Whether the point lies on the triangle, in exact arithmetic.
 bool touches_exactly(const Imath::V3d& point, const Corners& triangle);
 
-/// The distance, its square in exact arithmetic.
+/// The distance; its square is computed in exact arithmetic.
 double distance_exactly(const Imath::V3d& point, const Corners& triangle);
 
 } // namespace scree

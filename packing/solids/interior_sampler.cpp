@@ -15,7 +15,7 @@ namespace {
 
 using Imath::V3d;
 
-/// Streams of the hash, one for each number drawn for a point; rejection goes on from the last.
+/// Streams of the hash, one for each number drawn for a point; rejection continues with further streams.
 enum Stream : uint64_t { cell_stream = 0x7e700, keep_stream, first_place_stream };
 
 /// Draws from weights in constant time (Walker 1977, set up as in Vose 1991).
@@ -40,7 +40,7 @@ public:
             large.pop_back();
             small.push_back(l);
         }
-        // What is left is 1 but for rounding.
+        // The remaining entries are 1 except for rounding.
         for (const auto* rest : {&small, &large})
             for (const uint32_t k : *rest) keep_[k] = 1;
     }
@@ -56,13 +56,13 @@ private:
     std::vector<uint32_t> other_;
 };
 
-/// Six times the volume, by differences so that distance from the origin does not matter.
+/// Six times the volume, from differences, so that the distance from the origin does not matter.
 double six_volumes(const V3d& a, const V3d& b, const V3d& c, const V3d& d)
 {
     return std::abs((b - a).dot((c - a).cross(d - a)));
 }
 
-/// Cubes that hold all of the domain, for rejection.
+/// Cubes that together contain the domain, for rejection sampling.
 struct Cubes {
     std::vector<V3d> corner;
     double edge = 0;
@@ -94,7 +94,7 @@ struct InteriorSampler::Impl {
     const Domain& domain;
     double volume = 0;
     std::string method;
-    Tetrahedra solid; ///< the cells inside; none: rejection
+    Tetrahedra solid; ///< the cells inside the domain; empty: rejection sampling is used
     std::optional<AliasTable> cells;
     Cubes cubes;
 
@@ -105,16 +105,16 @@ struct InteriorSampler::Impl {
     V3d place_by_rejection(uint64_t index, uint64_t seed) const;
 };
 
-/// Keeps the cells inside the domain; false, saying why, when they do not fill it.
+/// Keeps the cells inside the domain; returns false, with the reason in `trouble`, if they do not fill it.
 bool InteriorSampler::Impl::take_tetrahedra(Tetrahedra all, std::string& trouble)
 {
-    // Scaled by a power of two, so that cubes of lengths stay among the numbers.
+    // Scaled by a power of two, so that cubes of lengths neither overflow nor underflow.
     const V3d half = domain.bounds().max * 0.5 - domain.bounds().min * 0.5;
     const int exponent = std::ilogb(std::max({half.x, half.y, half.z}));
     const double scale = std::scalbn(1.0, -exponent);
     const auto corner = [&](size_t cell, size_t c) -> const V3d& { return all.points[all.cells[cell][c]]; };
     std::vector<double> volumes;
-    std::map<int32_t, size_t> largest; // of each region: it tells best where the region is
+    std::map<int32_t, size_t> largest; // cell of each region: the safest one to test which side the region is on
     for (size_t k = 0; k < all.cells.size(); ++k) {
         const V3d &a = corner(k, 0), &b = corner(k, 1), &c = corner(k, 2), &d = corner(k, 3);
         volumes.push_back(six_volumes(V3d(0), (b - a) * scale, (c - a) * scale, (d - a) * scale) / 6);
@@ -134,7 +134,7 @@ bool InteriorSampler::Impl::take_tetrahedra(Tetrahedra all, std::string& trouble
         kept.push_back(volumes[k]);
         sum += volumes[k];
     }
-    // The faces are kept whole, so both are the same number but for rounding.
+    // The faces are kept whole, so both volumes are equal except for rounding.
     const double truth = std::scalbn(domain.volume(), -3 * exponent);
     if (std::isfinite(truth) && truth > 0 && !(std::abs(sum - truth) <= 1e-9 * truth)) {
         trouble = fmt::format("its tetrahedra fill {} times the enclosed volume", sum / truth);

@@ -8,11 +8,11 @@
 
 namespace scree {
 
-/// Volume of a domain and points uniform in it, from TetGen's tetrahedra.
+/// Volume of a domain, and points uniform in it, from TetGen's tetrahedra.
 ///
-/// TetGen runs in a process of its own with limits of time and memory, so that no input can take this program down.
-/// Where it fails (or was not built in: SCREE_TETGEN=OFF) the volume is by the divergence theorem and points are found
-/// by rejection.
+/// TetGen runs in a separate process with limits of time and memory, so that no input can crash this program. Where
+/// TetGen fails (or was not built in: SCREE_TETGEN=OFF), the divergence theorem gives the volume, and rejection
+/// sampling gives the points.
 class InteriorSampler {
 public:
     /// The domain must outlive the sampler.
@@ -21,9 +21,9 @@ public:
 
     /// Scene units cubed.
     double volume() const;
-    /// Uniform in the domain; a function of (index, seed) alone. Any thread.
+    /// A point uniform in the domain; depends only on (index, seed). Any thread.
     Imath::V3d sample(uint64_t index, uint64_t seed) const;
-    /// "TetGen, 12345 tetrahedra", or what was used instead and why.
+    /// "TetGen, 12345 tetrahedra", or which method replaced TetGen and why.
     const std::string& method() const;
     bool by_tetgen() const;
 

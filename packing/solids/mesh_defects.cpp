@@ -16,7 +16,7 @@ namespace {
 using Imath::V3d;
 using Kind = MeshDefect::Kind;
 
-const char* const repair_hint = "--repair may mend it";
+const char* const repair_hint = "--repair may fix it";
 
 std::string words_of(const V3d& p) { return fmt::format("({}, {}, {})", p.x, p.y, p.z); }
 
@@ -33,7 +33,7 @@ std::string words_of_edge(const TriangleMesh& mesh, uint32_t from, uint32_t to)
                        words_of(mesh.positions[to]));
 }
 
-/// " (one of 12 such edges)", or nothing when it is the only one.
+/// " (the first of 12 such edges)", or nothing if there is only one.
 std::string one_of(uint64_t count, const char* what)
 {
     return count > 1 ? fmt::format(" (the first of {} such {})", count, what) : "";
@@ -47,11 +47,12 @@ std::optional<MeshDefect> find_bad_corner(const TriangleMesh& mesh)
         for (const uint32_t vertex : mesh.triangles[face]) {
             if (vertex < mesh.positions.size()) continue;
             if (count++ == 0)
-                found = fmt::format("face {} names vertex {}, and there are {}", face, vertex, mesh.positions.size());
+                found =
+                    fmt::format("face {} names vertex {}, but there are only {}", face, vertex, mesh.positions.size());
         }
     }
     if (count == 0) return std::nullopt;
-    return MeshDefect{Kind::degenerate, found + one_of(count, "corners"), "the file is damaged; write it anew"};
+    return MeshDefect{Kind::degenerate, found + one_of(count, "corners"), "the file is damaged; export it again"};
 }
 
 std::optional<MeshDefect> find_not_finite(const TriangleMesh& mesh)
@@ -69,7 +70,7 @@ std::optional<MeshDefect> find_not_finite(const TriangleMesh& mesh)
     }
     if (count == 0) return std::nullopt;
     return MeshDefect{Kind::not_finite, found + one_of(count, "vertices"),
-                      "--repair drops the faces there and closes the holes that are small"};
+                      "--repair drops these faces and closes small holes"};
 }
 
 std::optional<MeshDefect> find_degenerate(const TriangleMesh& mesh)
@@ -146,14 +147,14 @@ std::optional<MeshDefect> find_bad_edge(const TriangleMesh& mesh, const std::vec
         return MeshDefect{
             Kind::not_manifold,
             fmt::format("{} has {} faces{}", words(crowded), crowded.faces, one_of(crowded.edges, "edges")),
-            "--repair takes parts that touch at an edge asunder; walls without thickness need some"};
+            "--repair separates parts that touch along an edge; walls without thickness must be given a thickness"};
     }
     if (against.edges > 0) {
         return MeshDefect{Kind::not_oriented,
                           fmt::format("{}: faces {} and {} disagree on which side is out{}", words(against),
                                       edges[against.first].face, edges[against.first + 1].face,
                                       one_of(against.edges, "edges")),
-                          "--repair turns faces to agree"};
+                          "--repair turns faces so that they agree"};
     }
     return std::nullopt;
 }
@@ -161,7 +162,7 @@ std::optional<MeshDefect> find_bad_edge(const TriangleMesh& mesh, const std::vec
 /// Vertices at which several fans of faces meet. Every edge must have two faces.
 std::optional<MeshDefect> find_bad_vertex(const TriangleMesh& mesh, const std::vector<FaceEdge>& edges)
 {
-    // Corners of the two faces at an edge belong to one fan at each end of it: a graph over corners, and its pieces.
+    // At each end of an edge, the corners of its two faces belong to one fan: fans are the components of this graph.
     std::vector<uint64_t> parent(3 * mesh.triangles.size());
     for (uint64_t k = 0; k < parent.size(); ++k) parent[k] = k;
     const auto root = [&](uint64_t k) {
@@ -188,7 +189,7 @@ std::optional<MeshDefect> find_bad_vertex(const TriangleMesh& mesh, const std::v
     const auto vertex = static_cast<size_t>(first - fans.begin());
     const auto count = static_cast<uint64_t>(std::ranges::count_if(fans, bad));
     return MeshDefect{Kind::not_manifold,
-                      fmt::format("at vertex {} at {} {} separate fans of faces meet{}", vertex,
+                      fmt::format("vertex {} at {}: {} separate fans of faces meet{}", vertex,
                                   words_of(mesh.positions[vertex]), *first, one_of(count, "vertices")),
                       "--repair gives each fan a vertex of its own"};
 }
@@ -204,7 +205,7 @@ std::optional<MeshDefect> find_self_intersection(const TriangleMesh& mesh)
     return MeshDefect{
         Kind::self_intersecting,
         fmt::format("{} meets {}{}", words_of_face(mesh, found.first), words_of_face(mesh, found.second), more),
-        "--repair does not mend this: unite parts that overlap, or remesh the surface through a level set"};
+        "--repair cannot fix this: unite parts that overlap, or remesh the surface through a level set"};
 }
 
 } // namespace

@@ -32,12 +32,12 @@ struct Soup {
     std::vector<std::vector<std::size_t>> polygons;
 };
 
-/// Says what was done, when anything was.
+/// Records what was done, if anything.
 class Changes {
 public:
     explicit Changes(std::vector<std::string>& words) : words_(words) {}
 
-    /// text: with the count at {}, for one and for several.
+    /// one, several: texts for one and for several, with the count at {}.
     void add(uint64_t count, const char* one, const char* several)
     {
         if (count > 0) words_.push_back(fmt::format(fmt::runtime(count == 1 ? one : several), count));
@@ -49,8 +49,8 @@ private:
 
 bool is_finite(const V3d& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-/// Power of two by which the largest finite coordinate becomes about 1: CGAL's choices among ways to fill a hole go by
-/// areas and angles in double, which overflow with the coordinates' fourth powers.
+/// Power of two that scales the largest finite coordinate to about 1: CGAL chooses hole fillings by areas and angles in
+/// double, which overflow with the fourth powers of the coordinates.
 int exponent_of(const TriangleMesh& mesh)
 {
     double largest = 0;
@@ -60,7 +60,7 @@ int exponent_of(const TriangleMesh& mesh)
     return largest > 0 ? std::ilogb(largest) : 0;
 }
 
-/// The faces whose corners exist and are finite.
+/// The faces whose corners exist and have finite coordinates.
 Soup soup_of(const TriangleMesh& mesh, int exponent, Changes& changes)
 {
     Soup soup;
@@ -93,7 +93,7 @@ Soup soup_of(const TriangleMesh& mesh, int exponent, Changes& changes)
     return soup;
 }
 
-/// Counts what orient_polygon_soup does; CGAL may copy it.
+/// Counts what orient_polygon_soup does; through pointers, because CGAL may copy the visitor.
 struct OrientationCounter : pmp::Default_orientation_visitor {
     uint64_t *turned, *doubled;
 
@@ -115,7 +115,7 @@ void orient(Soup& soup, Changes& changes)
 
 void fill_holes(Surface& surface, Changes& changes)
 {
-    // The best filling is looked for among all, in a time of the border's third power, for holes up to this many edges.
+    // For holes of up to this many edges, the best of all fillings is searched, in time cubic in the edges.
     constexpr size_t searchable = 200;
     std::vector<Halfedge> borders;
     pmp::extract_boundary_cycles(surface, std::back_inserter(borders));
@@ -139,7 +139,7 @@ void fill_holes(Surface& surface, Changes& changes)
     if (filled > 0)
         changes.add(edges_filled, "filled a hole of {} edge",
                     filled == 1 ? "filled a hole of {} edges" : "filled holes of {} edges in all");
-    changes.add(left, "found no way to fill {} hole", "found no way to fill {} holes");
+    changes.add(left, "could not fill {} hole", "could not fill {} holes");
 }
 
 TriangleMesh mesh_of(const Surface& surface, int exponent)
@@ -162,7 +162,7 @@ TriangleMesh mesh_of(const Surface& surface, int exponent)
     return mesh;
 }
 
-/// Turns the shells that look into the solid; only where nothing else is wrong.
+/// Turns the shells that look into the solid, if the mesh has no other defect.
 void turn_shells(TriangleMesh& mesh, Changes& changes)
 {
     if (find_surface_defect(mesh)) return;
@@ -210,7 +210,7 @@ TriangleMesh repair_mesh(const TriangleMesh& mesh, std::vector<std::string>& cha
     Changes said(changes);
     try {
         return repaired(mesh, said);
-    } catch (const CGAL::Failure_exception&) { // a precondition of one of its functions that no check of ours foresees
+    } catch (const CGAL::Failure_exception&) { // a precondition of a CGAL function that no check here foresees
         changes = {"gave up: CGAL cannot work with this surface; nothing was changed"};
         return mesh;
     }

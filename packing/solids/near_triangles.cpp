@@ -20,7 +20,7 @@ void NearTriangles::fill(const std::vector<Corners>& triangles, double scale)
     for (size_t k = 0; k < triangles.size(); ++k) {
         const V3d a = triangles[k][0] * scale, b = triangles[k][1] * scale, c = triangles[k][2] * scale;
         const V3d middle = (a + b + c) / 3;
-        // Whichever unit vector this is, the drum holds the triangle.
+        // With any unit vector as the normal, the cylinder contains the triangle.
         V3d normal = (b - a).cross(c - a).normalized();
         if (!(std::abs(normal.length2() - 1) < 1e-6)) normal = V3d(1, 0, 0);
         double radius = 0, thickness = 0;
@@ -40,13 +40,13 @@ DistanceBounds NearTriangles::distance(const V3d& place)
     const size_t n = corners_.size();
     least_.resize(n);
     const V3d p = place * scale_;
-    // What rounding can add: some ten units of 2^-53 of the places that differences are of.
+    // Bound on rounding: it is some ten times 2^-53 of the places that are subtracted.
     const double rounding = (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + 4) * 0x1p-48;
     for (size_t k = 0; k < n; ++k) {
         const double x = p.x - x_[k], y = p.y - y_[k], z = p.z - z_[k];
         const double square = x * x + y * y + z * z;
         const double height = std::abs(x * normal_x_[k] + y * normal_y_[k] + z * normal_z_[k]);
-        // The difference of near squares is off by a few units of the larger.
+        // The difference of nearly equal squares is off by a few units of the larger one.
         const double aside = std::sqrt(std::max(square * (1 - 0x1p-48) - height * height, 0.0));
         const double h = std::max(height - thickness_[k], 0.0), t = std::max(aside - radius_[k], 0.0);
         least_[k] = std::sqrt(h * h + t * t) - rounding;

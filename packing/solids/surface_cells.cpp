@@ -19,17 +19,17 @@ namespace {
 
 constexpr uint64_t slot_count = uint64_t{1} << 19;
 constexpr uint64_t most_probes = 16;
-constexpr uint64_t most_bytes = uint64_t{96} << 20; // of cells
-constexpr size_t most_triangles = 128; // of a cell: where more are near, the tree is faster than the list
-constexpr int axis_bits = 20; // of a cell's number along an axis
+constexpr uint64_t most_bytes = uint64_t{96} << 20; // of all cells
+constexpr size_t most_triangles = 128; // of a cell: beyond, the tree is faster than the list
+constexpr int axis_bits = 20; // bits of a cell's number along an axis
 constexpr size_t lanes = 8;
 
 double largest_component(const V3d& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 using Lanes = std::array<float, lanes>;
 
-/// The planes of triangles, scaled, with unit normals n pointing out of the solid: a place q from the cell's middle is
-/// n.q - offset above one. A triangle whose plane is not known well has a zero normal and offset.
+/// The planes of triangles, scaled, with unit normals n that point out of the solid. A place q, relative to the cell's
+/// middle, is n.q - offset above a plane. A triangle without an accurate plane has normal and offset zero.
 struct Planes {
     Lanes x, y, z, offset;
     std::array<uint32_t, lanes> face;
@@ -44,11 +44,11 @@ struct Planes {
 
 } // namespace
 
-/// A triangle in short: its plane, and how far a place is beyond its edges.
+/// A triangle's plane, and a bound on how far a place lies beyond the triangle's edges.
 struct SurfaceCells::Plate {
-    V3d middle, normal; ///< scene units; unit normal out of the solid, zero where it is not known well
+    V3d middle, normal; ///< scene units; unit normal out of the solid, zero if it is not accurate
     std::array<V3f, 3> side; ///< nearly unit vectors
-    std::array<float, 3> reach{}; ///< scaled: of the triangle from its middle along each side's vector, at most
+    std::array<float, 3> reach{}; ///< scaled: greatest extent of the triangle from its middle along each side's vector
 
     Plate(const Corners& corners, double scale, double half) : middle(corners[0] / 3 + corners[1] / 3 + corners[2] / 3)
     {
@@ -61,20 +61,20 @@ struct SurfaceCells::Plate {
         const double turn = 8 * 0x1p-53 * ab.length() * ac.length() / length;
         normal = length > 0x1p-900 && turn * (8 * half + radius) <= 0x1p-26 * half ? cross / length : V3d(0);
         for (size_t k = 0; k < 3; ++k) {
-            // Whatever vector this is, the triangle reaches no farther along it.
+            // True for any vector, however it is rounded: the triangle reaches no farther along it.
             side[k] = V3f((c[(k + 1) % 3] - c[k]).cross(normal).normalized());
             const V3d s(side[k]);
             reach[k] = static_cast<float>(std::max({s.dot(c[0]), s.dot(c[1]), s.dot(c[2])}));
         }
     }
 
-    /// A lower bound of the distance, by the edges, of a place from the middle; scaled.
+    /// A lower bound, from the edges, on the distance of a place given relative to the middle; scaled.
     double beyond(const V3d& place) const
     {
         const V3f q(place);
         const float most = std::max({side[0].dot(q) - reach[0], side[1].dot(q) - reach[1], side[2].dot(q) - reach[2]});
         // Let u = 2^-24: the vectors' lengths, q, the product and the difference are off by less than 8 u of |q| in
-        // all, as what is above zero has a smaller reach than |q|.
+        // all, because reach is below |q| wherever the result is positive.
         return most - 0x1p-19 * (std::abs(place.x) + std::abs(place.y) + std::abs(place.z));
     }
 };
@@ -84,8 +84,8 @@ struct SurfaceCells::Cell {
     uint64_t key = 0;
     Kind kind = Kind::crowded;
     uint32_t count = 0;
-    std::vector<Planes> planes; // of all triangles that may be the nearest to a place in the cell, or within the
-                                // largest radius of it; the last repeats
+    std::vector<Planes> planes; // of all triangles that may be nearest to a place in the cell, or within the largest
+                                // radius of one; the last is repeated to fill the lanes
 };
 
 SurfaceCells::SurfaceCells(const Domain& domain, double largest) : domain_(domain), largest_(largest)
@@ -93,9 +93,9 @@ SurfaceCells::SurfaceCells(const Domain& domain, double largest) : domain_(domai
     const V3d size = domain.bounds().size();
     const double longest = std::max({size.x, size.y, size.z});
     const auto faces = static_cast<double>(domain.mesh().triangles.size());
-    // About as large as the triangles are, so that few are near; and larger than the balls.
+    // Cells are about as large as the triangles, so that few are near, and larger than the balls.
     const double edge = std::max(longest / std::max(64.0, std::sqrt(faces)), 4 * largest);
-    // Beyond what follows is written for, there are no cells.
+    // Outside the range for which the error bounds hold, no cells are used.
     const double farthest = std::max(largest_component(domain.bounds().min), largest_component(domain.bounds().max));
     if (!(largest > 0) || !(longest > 0x1p-900) || !(longest < 0x1p900) || !(edge < longest) ||
         !(longest / edge < (1 << axis_bits) - 2) || !(farthest < 0x1p20 * edge))
@@ -103,7 +103,7 @@ SurfaceCells::SurfaceCells(const Domain& domain, double largest) : domain_(domai
     scale_ = std::ldexp(1.0, -std::ilogb(longest) - 1);
     edge_ = edge;
     half_ = std::sqrt(0.75) * edge_ * (1 + 0x1p-20);
-    // See `make`.
+    // `make` derives this bound.
     error_ = static_cast<float>(half_ * scale_ * 0x1p-18);
     slots_ = std::make_unique<std::atomic<const Cell*>[]>(slot_count);
     plates_.reserve(domain.mesh().triangles.size());
@@ -161,7 +161,8 @@ std::unique_ptr<SurfaceCells::Cell> SurfaceCells::make(uint64_t key) const
     cell->key = key;
     const V3d m = middle(key);
     const double half = half_ * scale_;
-    // A triangle that matters is within half + largest of the middle, or the nearest of one such is within half of it.
+    // A triangle that matters is within half + largest of the middle, or at most 2 half farther than the nearest one,
+    // which is within half + largest.
     std::vector<uint32_t> faces;
     domain_.surface().collect_near(m, (3 * half_ + largest_) * (1 + 0x1p-40), faces);
 
@@ -210,7 +211,7 @@ std::unique_ptr<SurfaceCells::Cell> SurfaceCells::make(uint64_t key) const
 
 double SurfaceCells::lower_bound(const Plate& plate, const V3d& place, double least) const
 {
-    // As far as places are rounded, error_ is far above it.
+    // error_ is far above the rounding of places.
     return std::max(least, plate.beyond((place - plate.middle) * scale_) - error_);
 }
 
@@ -253,14 +254,14 @@ SurfaceCells::Answer SurfaceCells::ask(const Cell& cell, const V3d& offset, cons
     }
     const float lowest = *std::min_element(lows.begin(), lows.end()),
                 highest = *std::max_element(highs.begin(), highs.end());
-    // The triangles that meet where the surface is nearest are among these. Where the centre is behind all of them it
-    // is inside, and where it is before all of them outside: an average of their normals tells (Baerentzen and Aanaes
-    // 2005). And no triangle is nearer than its plane.
+    // The triangles that meet at the surface's nearest point are among these. If the centre is behind all of them, it
+    // is inside; if it is in front of all of them, it is outside, because an average of their normals decides
+    // (Baerentzen and Aanaes 2005). No triangle is nearer than its plane.
     if (lowest > error_) return Answer::no;
     const double r = radius * scale_;
     if (-double{highest} >= r + error_) return Answer::yes;
 
-    // Triangles one after the other, by ever better bounds, the likely nearest first.
+    // Test triangles one by one with increasingly tight bounds, the likely nearest first.
     const auto face = [&](size_t k) { return cell.planes[k / lanes].face[k % lanes]; };
     std::array<double, most_triangles> least;
     std::array<bool, most_triangles> by_edges;
@@ -285,7 +286,7 @@ SurfaceCells::Answer SurfaceCells::ask(const Cell& cell, const V3d& offset, cons
         least[k] = d.lo;
         nearest = std::min(nearest, d.hi);
     }
-    // It is clear of all. Those that may be the nearest tell the side.
+    // The ball is clear of all triangles. Those that may be nearest decide the side.
     bool before = false, behind = false;
     for (size_t k = 0; k < cell.count; ++k) {
         if (least[k] > nearest) continue;

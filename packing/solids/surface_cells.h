@@ -10,15 +10,14 @@
 
 namespace scree {
 
-/// Answers whether small balls are whole inside a domain from the few triangles near them, which it keeps by cubic
-/// cells.
+/// Decides whether small balls lie wholly inside a domain; it stores the few triangles near each cell of a cubic grid.
 ///
-/// A cell is filled when a ball is first asked about in it. The answer is Domain::contains_sphere's: planes in float
-/// with proven bounds settle nearly all, triangles in double most of the others, and the domain the rest. Any thread
-/// may ask.
+/// A cell is filled at the first question about a ball in it. The answer is always that of Domain::contains_sphere:
+/// planes in float with proven error bounds decide nearly all questions, triangles in double most of the others, and
+/// the domain the rest. Any thread may ask.
 class SurfaceCells {
 public:
-    /// largest: of the radii that will be asked about; cells are made for it. The domain must outlive this.
+    /// largest: the largest radius that will be asked about; it sets the size of cells. The domain must outlive this.
     SurfaceCells(const Domain& domain, double largest);
     ~SurfaceCells();
     SurfaceCells(const SurfaceCells&) = delete;
@@ -28,7 +27,7 @@ public:
     bool contains_sphere(const Imath::V3d& centre, double radius) const;
 
     uint64_t bytes() const;
-    /// How many times the domain had to be asked.
+    /// How many questions needed the domain's answer.
     uint64_t domain_tests() const { return domain_tests_.load(); }
 
 private:
@@ -40,18 +39,18 @@ private:
     std::unique_ptr<Cell> make(uint64_t key) const;
     Imath::V3d middle(uint64_t key) const;
     Corners corners(uint32_t face) const;
-    /// Of the distance of the place from the triangle, scaled; least: another one.
+    /// A lower bound on the scaled distance from the place to the triangle; least: another lower bound.
     double lower_bound(const Plate& plate, const Imath::V3d& place, double least) const;
     Answer ask(const Cell& cell, const Imath::V3d& offset, const Imath::V3d& centre, double radius) const;
 
     const Domain& domain_;
-    double scale_ = 1; // power of two that brings the bounds' longest edge to 1/2..1
-    double edge_ = 0; // of a cell; 0 where there are none
-    double half_ = 0; // of a cell's diagonal, and a little more
+    double scale_ = 1; // power of two that scales the bounds' longest edge to 1/2..1
+    double edge_ = 0; // of a cell; 0 where there are no cells
+    double half_ = 0; // half of a cell's diagonal, slightly enlarged
     double largest_;
-    float error_ = 0; // of what is computed in float; scaled
+    float error_ = 0; // bound on the errors of what is computed in float; scaled
     std::vector<Plate> plates_; // by face
-    // By a hash of the key, open addressing; null where there is none yet.
+    // A hash table of cells by key, with open addressing; null where a slot is empty.
     std::unique_ptr<std::atomic<const Cell*>[]> slots_;
     mutable std::atomic<uint64_t> bytes_{0}, domain_tests_{0};
 };

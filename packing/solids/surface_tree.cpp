@@ -19,7 +19,7 @@ namespace {
 using Imath::V3d;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// A triangle as the tree keeps it: by value, so that neighbours in the tree are neighbours in memory.
+/// A triangle as the tree stores it: by value, so that neighbours in the tree are neighbours in memory.
 class Face {
 public:
     using Id = uint32_t;
@@ -27,7 +27,7 @@ public:
     using Datum = Kernel::Triangle_3;
 
     Face(uint32_t number, const Corners& corners) : corners_(corners), number_(number) {}
-    /// As the tree makes them: from iterators over faces.
+    /// The tree makes its faces with this, from iterators.
     template <class Iterator>
     explicit Face(Iterator face) : Face(*face)
     {
@@ -49,7 +49,7 @@ using Traits = CGAL::AABB_traits<Kernel, Face>;
 using Tree = CGAL::AABB_tree<Traits>;
 using Node = CGAL::AABB_node<Traits>;
 
-/// Squared distance from a point to a box; lengths are scaled. Right but for a few units of 2^-53, and for underflow.
+/// Squared distance from a point to a box, scaled; exact to a few units of 2^-53, except for underflow.
 class BoxDistance {
 public:
     BoxDistance(const V3d& point, double scale) : point_(point), scale_(scale) {}
@@ -59,7 +59,7 @@ public:
         return square(gap(box.xmin(), box.xmax(), point_.x), gap(box.ymin(), box.ymax(), point_.y),
                       gap(box.zmin(), box.zmax(), point_.z));
     }
-    /// Of the triangle's box.
+    /// Squared distance to the triangle's box.
     double operator()(const Corners& triangle) const
     {
         const auto& [a, b, c] = triangle;
@@ -77,7 +77,7 @@ private:
     double scale_;
 };
 
-/// A square from which on a box's squared distance means that the box is farther than `length`.
+/// If the squared distance of a box exceeds this, the box is farther than `length`.
 double safe_square(double length) { return length * length * (1 + 0x1p-49) + 0x1p-1000; }
 
 /// The question "does a triangle reach into this ball?", as CGAL's tree asks it of its nodes and leaves.
@@ -110,9 +110,9 @@ private:
     bool reaches_ = false;
 };
 
-/// The side of the line a to b, seen from above, on which q shifted by (e, e^2) lies, e being as small as you like
-/// (simulation of simplicity, Edelsbrunner and Mücke 1990): zero only when a is above b. So a ray upward never meets an
-/// edge.
+/// The side of the line a to b, seen from above, on which q shifted by (e, e^2) lies, for an arbitrarily small e > 0
+/// (simulation of simplicity, Edelsbrunner and Mücke 1990). It is zero only if a is above b, so an upward ray never
+/// meets an edge.
 template <class K>
 CGAL::Sign side_of_edge(const CGAL::Point_3<K>& a, const CGAL::Point_3<K>& b, const CGAL::Point_3<K>& q)
 {
@@ -123,7 +123,7 @@ CGAL::Sign side_of_edge(const CGAL::Point_3<K>& a, const CGAL::Point_3<K>& b, co
     return by_x != CGAL::ZERO ? by_x : CGAL::compare(b.x(), a.x());
 }
 
-/// Whether the ray upward from the shifted q meets the triangle.
+/// Whether the upward ray from the shifted q meets the triangle.
 template <class K>
 bool is_above(const CGAL::Point_3<K>& a, const CGAL::Point_3<K>& b, const CGAL::Point_3<K>& c,
               const CGAL::Point_3<K>& q)
@@ -139,7 +139,7 @@ CGAL::Point_3<K> point_of(const V3d& p)
     return {p.x, p.y, p.z};
 }
 
-/// Counts the triangles above a point, given with a box that holds it.
+/// Counts the triangles above a point, which is given with a box around it.
 template <class K>
 class UpwardTraversal {
 public:
@@ -184,7 +184,7 @@ class NearestTraversal {
 public:
     using Priority = double;
 
-    /// share: of the distance of the nearest so far, within which others are still looked for.
+    /// share: triangles are searched within this share of the nearest distance found so far.
     NearestTraversal(const V3d& point, double scale, double share)
         : point_(point), scale_(scale), share_(share), box_distance_(point, scale)
     {
@@ -206,7 +206,7 @@ public:
         nearest_.hi = d.hi;
         square_ = safe_square(d.hi * share_);
     }
-    /// Scaled, of the nearest triangle.
+    /// Scaled distance of the nearest triangle.
     DistanceBounds nearest() const { return {std::min(nearest_.lo, nearest_.hi * share_), nearest_.hi}; }
 
 private:
@@ -276,14 +276,14 @@ Corners corners_of(const TriangleMesh& mesh, size_t face)
 
 struct SurfaceTree::Impl {
     Tree tree;
-    double scale = 1; ///< power of two that brings the bounds' longest edge to 1/2..1
+    double scale = 1; ///< power of two that scales the bounds' longest edge to 1/2..1
     const TriangleMesh& mesh;
 
     explicit Impl(const TriangleMesh& m) : mesh(m)
     {
         silence_cgal();
         const Imath::Box3d bounds = bounds_of(mesh);
-        // Halves, so that no difference overflows.
+        // Of halves, so that no difference overflows.
         const V3d half = bounds.max * 0.5 - bounds.min * 0.5;
         const double longest = std::max({half.x, half.y, half.z});
         if (longest > 0) scale = std::ldexp(1.0, std::clamp(-std::ilogb(longest) - 2, -1022, 1022));
@@ -292,7 +292,7 @@ struct SurfaceTree::Impl {
         for (size_t face = 0; face < mesh.triangles.size(); ++face)
             faces.emplace_back(static_cast<uint32_t>(face), corners_of(mesh, face));
         tree.insert(faces.begin(), faces.end());
-        tree.build(); // now: building at the first query is not for many threads
+        tree.build(); // now, because building it at the first query is not thread-safe
     }
 };
 
@@ -326,7 +326,7 @@ std::optional<bool> SurfaceTree::looks_outward(uint32_t face) const
         CGAL::centroid(point_of<ExactKernel>(a), point_of<ExactKernel>(b), point_of<ExactKernel>(c));
     UpwardTraversal<ExactKernel> traversal(middle, middle.bbox(), face);
     impl_->tree.traversal(a, traversal);
-    // Above the face is in front of it when it looks up; below it is the other side of the surface.
+    // The count is for places just above the face: in front of a face that looks up, behind one that looks down.
     return (turn == CGAL::LEFT_TURN) != traversal.odd();
 }
 
@@ -336,7 +336,7 @@ double SurfaceTree::distance(const V3d& point) const
     NearestTraversal traversal(point, scale, 1);
     impl_->tree.traversal_with_priority(point, traversal);
     const DistanceBounds d = traversal.nearest();
-    // The bounds' longest edge is 1/2..1; places far outside have a width of their own.
+    // The bounds' longest edge is 1/2..1; far outside, the tolerance grows with the distance.
     if (d.hi - d.lo <= 1e-14 * std::max(1.0, d.hi)) return (d.lo / 2 + d.hi / 2) / scale;
     ExactNearestTraversal exact(point, scale, d.hi);
     impl_->tree.traversal(point, exact);

@@ -1,7 +1,7 @@
 // scree-tetgen SECONDS MEGABYTES: fills a closed surface from standard input with tetrahedra (TetGen).
 //
-// A program of its own, so that nothing TetGen does with an input can harm the one that asked: it may throw ints,
-// overrun its memory or never end. Messages are those of packing/tetgen_message.h.
+// A separate program, so that nothing TetGen does with an input can harm the program that asked: TetGen may throw ints,
+// write beyond its memory or never end. packing/solids/tetgen_message.h defines the messages.
 
 #include "packing/solids/tetgen_message.h"
 
@@ -49,8 +49,8 @@ bool write_all(int file, const void* data, size_t bytes)
     return true;
 }
 
-/// False unless the input is a whole message. The memory is TetGen's: what it holds is never freed here, the process
-/// ends.
+/// Returns false unless the input is a complete message. TetGen owns the memory; it is never freed here, because the
+/// process ends.
 bool read_surface(tetgenio& surface)
 {
     scree::TetgenHead head;
@@ -118,10 +118,10 @@ int main(int count, char** words)
 {
     limit(RLIMIT_CORE, 0);
     if (count > 1) limit(RLIMIT_CPU, static_cast<rlim_t>(std::atoll(words[1])));
-#ifndef __SANITIZE_ADDRESS__ // it reserves terabytes of addresses
+#ifndef __SANITIZE_ADDRESS__ // AddressSanitizer reserves terabytes of addresses
     if (count > 2) limit(RLIMIT_AS, static_cast<rlim_t>(std::atoll(words[2])) << 20);
 #endif
-    // TetGen talks on standard output: the answer goes to a copy of it, the talk nowhere.
+    // TetGen prints to standard output: the answer goes to a copy of it, and what TetGen prints is discarded.
     const int output = dup(STDOUT_FILENO);
     if (output < 0 || std::freopen("/dev/null", "w", stdout) == nullptr) return cannot_write;
     int status = no_memory;
@@ -131,5 +131,5 @@ int main(int count, char** words)
         status = scree::tetgen_threw + thrown;
     } catch (const std::bad_alloc&) {
     }
-    std::_Exit(status); // TetGen's own tidying up is not to be trusted after a failure
+    std::_Exit(status); // TetGen's own clean-up cannot be trusted after a failure
 }

@@ -19,9 +19,9 @@ namespace {
 
 using Imath::V3d;
 
-/// The surface as it is sent: one point a place, none unused, about 1 in size around the origin.
+/// The surface as it is sent: one point per place, no unused points, about 1 in size around the origin.
 struct Message {
-    std::vector<V3d> places; ///< of the points, as they were
+    std::vector<V3d> places; ///< of the points, before scaling
     std::vector<V3d> points;
     std::vector<uint32_t> corners;
     V3d middle{0};
@@ -78,7 +78,7 @@ void append(std::vector<char>& bytes, const T* values, size_t count)
     if (count > 0) std::memcpy(bytes.data() + at, values, count * sizeof(T));
 }
 
-/// Takes values from the front of what is left; false when there are too few.
+/// Reads values from the front of the remaining bytes; false if there are too few.
 template <class T>
 bool take(std::span<const char>& bytes, T* values, size_t count)
 {
@@ -88,7 +88,7 @@ bool take(std::span<const char>& bytes, T* values, size_t count)
     return true;
 }
 
-/// Nothing of it is believed before it was looked at. False when it is no answer to the message.
+/// Reads the answer and checks all of it. False if it is no valid answer to the message.
 bool read_answer(std::span<const char> bytes, const Message& message, Tetrahedra& result)
 {
     TetgenHead head;

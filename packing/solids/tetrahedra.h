@@ -12,7 +12,7 @@ namespace scree {
 struct Tetrahedra {
     std::vector<Imath::V3d> points;
     std::vector<std::array<uint32_t, 4>> cells;
-    std::vector<int32_t> region; ///< of each cell; regions are separated by faces
+    std::vector<int32_t> region; ///< of each cell; faces separate the regions
 };
 
 /// How TetGen is run, and how much it may use.
@@ -22,11 +22,11 @@ struct TetgenOptions {
     uint64_t megabytes = 4096;
 };
 
-/// Fills what a surface encloses, cavities too, with tetrahedra by TetGen in a process of its own (`scree-tetgen`).
-/// Faces stay whole, so volumes are exact; points beside the surface's own are inner ones.
+/// Fills all that a surface encloses, cavities too, with tetrahedra: runs TetGen in a separate process
+/// (`scree-tetgen`). Faces are kept whole, so volumes are exact; the points that TetGen adds are inside.
 ///
-/// Any input will do: nothing happens to this program. Empty when TetGen fails; `trouble` then tells why. Coordinates
-/// are moved and scaled on the way so that the result has those of the surface.
+/// Any input is safe: it cannot harm this program. The result is empty when TetGen fails; `trouble` then says why. The
+/// coordinates are moved and scaled for TetGen; the result has the surface's own coordinates again.
 Tetrahedra tetrahedralize(const TriangleMesh& mesh, const TetgenOptions& options, std::string& trouble);
 
 } // namespace scree

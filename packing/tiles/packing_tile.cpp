@@ -29,7 +29,7 @@ double PackingTile::largest_radius() const { return radius.empty() ? 0 : *std::r
 
 namespace {
 
-/// Equal overlaps: the pair that comes first, whatever the threads did.
+/// Of equal overlaps, takes the pair that comes first, so that the threads' order does not matter.
 void take_larger(TileOverlap& a, const TileOverlap& b)
 {
     const bool earlier = b.rows[0] != a.rows[0] ? b.rows[0] < a.rows[0] : b.rows[1] < a.rows[1];
@@ -65,8 +65,8 @@ TileOverlap largest_tile_overlap(const PackingTile& tile, size_t variant)
                                      const double reach = sum + std::clamp(-most.overlap, 0.0, 1.0) * least;
                                      if (d.length2() > reach * reach) return true;
                                      take_larger(most, {(sum - d.length()) / least, {std::min(i, j), std::max(i, j)}});
-                                     // Only in what is no packing at all (wrong radii?) does a sphere overlap so many;
-                                     // not all pairs need be seen then.
+                                     // A sphere overlaps so many others only if the radii are wrong; then not all pairs
+                                     // need to be seen.
                                      return ++hits < 200;
                                  });
             }

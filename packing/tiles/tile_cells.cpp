@@ -15,10 +15,10 @@ TileCells::TileCells(const Imath::V3d& size, std::span<const double> radii, doub
 {
     if (radii.size() >= (uint64_t{1} << 27))
         throw InputError("tile", fmt::format("{} spheres", radii.size()), "fewer than 2^27",
-                         "a tile repeats without end: thousands do");
+                         "a tile repeats without end: thousands of spheres are enough");
     if (radii.empty()) return;
     const double largest = *std::ranges::max_element(radii);
-    // Not exactly halves of the largest: sizes are often given from R to 2 R, and those should share a level.
+    // Not at exact halves of the largest radius: radii often range from R to 2 R, and those should share a level.
     const auto number = [&](double radius) {
         int halvings = 0;
         std::frexp(0.75 * largest / radius, &halvings);
@@ -39,7 +39,7 @@ TileCells::TileCells(const Imath::V3d& size, std::span<const double> radii, doub
     uint64_t cells = 0;
     for (const auto& [n, level_index] : level_of_number) {
         Level& level = levels_[level_index];
-        // In a dilute tile cells hold about one sphere each.
+        // If the tile is dilute, cells hold about one sphere each.
         const double volume_of_one = size.x * size.y * size.z / static_cast<double>(counts[n]);
         const double width = std::max(2 * level.radius + skin, cube_root(volume_of_one));
         for (int axis = 0; axis < 3; ++axis) {

@@ -11,9 +11,9 @@ namespace scree {
 
 /// Finds the spheres near a place in a periodic cuboid, while spheres move.
 ///
-/// A level for every factor of two of the radius; a level is a periodic grid of cells at least as wide as its largest
-/// diameter, each with a linked list of its spheres. So the cost does not depend on the range of radii.
-/// (ingest/sphere_grid.h is its like for spheres at rest in open space.)
+/// There is a level for every factor of two of the radius. A level is a periodic grid whose cells are at least as wide
+/// as its largest diameter; each cell has a linked list of its spheres. So the cost does not depend on the range of
+/// radii. (ingest/sphere_grid.h does the same for spheres at rest in open space.)
 class TileCells {
 public:
     static constexpr uint32_t none = 0xffffffffu;
@@ -23,7 +23,7 @@ public:
 
     /// Enters all spheres; places in 0 <= x < size.
     void fill(std::span<const Imath::V3d> places);
-    /// Tells that a sphere is at another place now.
+    /// Updates the cell of a sphere that moved to `place`.
     void move(uint32_t sphere, const Imath::V3d& place);
 
     size_t level_count() const { return levels_.size(); }
@@ -31,14 +31,14 @@ public:
     /// Largest radius of the level; levels go from small to large.
     double level_radius(size_t level) const { return levels_[level].radius; }
 
-    /// Calls visit(sphere, x, y, z) for every sphere of the level with an image within `reach` of the place along each
-    /// axis, and for some others; x, y, z: the image's shift in edges of the cuboid, once for each such image. place: 0
-    /// <= x < size. Stops and returns false when visit does.
+    /// Calls visit(sphere, x, y, z) for every sphere of the level that has an image within `reach` of the place along
+    /// each axis, once for each such image, and for some others. x, y, z: the image's shift in edges of the cuboid.
+    /// place: 0 <= x < size. Stops and returns false when visit returns false.
     template <class Visit>
     bool visit_near(size_t level, const Imath::V3d& place, double reach, const Visit& visit) const
     {
         const Level& grid = levels_[level];
-        // A little more, so that rounding in the cells' coordinates can hide no sphere.
+        // Slightly larger, so that no sphere is missed by rounding of the cells' coordinates.
         int64_t lo[3], hi[3];
         for (int axis = 0; axis < 3; ++axis) {
             const double p = place[axis] * grid.cells_per_length[axis],
@@ -68,9 +68,9 @@ private:
         double radius = 0;
         int64_t cells[3] = {1, 1, 1};
         Imath::V3d cells_per_length{1};
-        uint64_t first = 0; ///< of its cells among those of all levels
+        uint64_t first = 0; ///< its first cell among the cells of all levels
     };
-    /// A cell's number along an axis, counted without end: the cell it is an image of, and how many edges away.
+    /// A cell of the endless lattice along an axis: the cell of the cuboid it repeats, and how many edges away.
     struct Cursor {
         int64_t cell;
         int image;

@@ -44,7 +44,7 @@ Imath::V3d cuboid_of(const ParticleFrame& frame, const std::string& place)
     return size;
 }
 
-/// How far the row's sphere reaches out of the cuboid; negative inside.
+/// How far the row's sphere extends out of the cuboid; negative if it is inside.
 double reach_out(const PackingTile& tile, size_t variant, uint64_t row)
 {
     const Imath::V3d& p = tile.variants[variant][row];
@@ -57,8 +57,8 @@ double reach_out(const PackingTile& tile, size_t variant, uint64_t row)
 [[noreturn]] void fail_variant(const std::string& place, size_t variant, uint64_t row, const std::string& what)
 {
     throw InputError(place, fmt::format("{}: sphere {} {}", variant_name(variant), row, what),
-                     "variants with the same spheres, of which those that reach through a face of the cuboid are the "
-                     "first rows and have the same place in each");
+                     "the same spheres in every variant; spheres that reach through a face of the cuboid are the first "
+                     "rows and have the same place in every variant");
 }
 
 /// Variants are the same rows with the same radii and types.
@@ -67,17 +67,17 @@ void check_same_rows(const ParticleFrame& first, const ParticleFrame& other, siz
     if (other.size() != first.size())
         throw InputError(
             place,
-            fmt::format("{} with {} spheres beside {} in points", variant_name(variant), other.size(), first.size()),
+            fmt::format("{} with {} spheres, but {} in points", variant_name(variant), other.size(), first.size()),
             "the same spheres in every variant");
     for (uint64_t row = 0; row < first.size(); ++row) {
         if (other.id[row] != first.id[row])
-            fail_variant(place, variant, row, fmt::format("has id {} and in points {}", other.id[row], first.id[row]));
+            fail_variant(place, variant, row, fmt::format("has id {}, but {} in points", other.id[row], first.id[row]));
         if (other.radius[row] != first.radius[row])
             fail_variant(place, variant, row,
-                         fmt::format("has radius {} and in points {}", other.radius[row], first.radius[row]));
+                         fmt::format("has radius {}, but {} in points", other.radius[row], first.radius[row]));
         if (other.type[row] != first.type[row])
             fail_variant(place, variant, row,
-                         fmt::format("has type {} and in points {}", other.type[row], first.type[row]));
+                         fmt::format("has type {}, but {} in points", other.type[row], first.type[row]));
     }
 }
 
@@ -92,12 +92,12 @@ void check_overlaps(const PackingTile& tile, size_t variant, const std::vector<u
                     variant_name(variant), ids[a], a == b ? "its own image" : std::to_string(ids[b]), tile.radius[a],
                     text_of(tile.variants[variant][a]), tile.radius[b], text_of(tile.variants[variant][b]),
                     worst.overlap),
-        "whole spheres that overlap by at most 1e-6",
-        "scree pack tile --from makes a tile of a simulation's spheres, which overlap");
+        "whole spheres that overlap by at most 1e-6 of the smaller radius",
+        "scree pack tile --from makes a tile of a simulation's overlapping spheres");
 }
 
-/// How many rows have the same place in every variant; with one variant, the rows up to the last that reaches through a
-/// face.
+/// The number of rows that have the same place in every variant; with one variant, the rows up to the last one that
+/// reaches through a face.
 uint32_t count_shared(const PackingTile& tile)
 {
     uint64_t shared = tile.rows();
@@ -120,9 +120,8 @@ void check_inside(const PackingTile& tile, const std::string& place)
             if (reach_out(tile, v, row) > most_overlap * tile.radius[row])
                 fail_variant(
                     place, v, row,
-                    fmt::format(
-                        "at {} (radius {:.6g}) reaches through a face but has not the same place in every variant",
-                        text_of(tile.variants[v][row]), tile.radius[row]));
+                    fmt::format("at {} (radius {:.6g}) reaches through a face, but its place differs between variants",
+                                text_of(tile.variants[v][row]), tile.radius[row]));
 }
 
 } // namespace
@@ -140,8 +139,8 @@ ParticleFrame tile_frame(const PackingTile& tile, size_t variant)
     for (int axis = 0; axis < 3; ++axis) box.edges[static_cast<size_t>(axis)][axis] = tile.size[axis];
     box.periodic = {true, true, true};
     frame.box = box;
-    // Not the middle of the spheres: rows of one place must be rounded alike in every variant. At a corner, since
-    // OpenVDB stores eight nodes instead of one around 0.
+    // A fixed origin, not the middle of the spheres: rows that share a place must be rounded alike in every variant. It
+    // is at a corner because OpenVDB would store eight nodes instead of one around 0.
     frame.origin = Imath::V3d(0);
     return frame;
 }

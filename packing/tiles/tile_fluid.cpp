@@ -122,7 +122,7 @@ FluidRun equilibrate_spheres(TileSpheres& spheres, uint64_t fixed, std::optional
         if (run.sweeps < tuning_sweeps && (run.sweeps + 1) % tuning_every == 0) fluid.tune();
         const uint64_t count = run.sweeps + 1;
         const double travelled = fluid.displacement() / (spacings * fluid.spacing());
-        // A random walk: the way goes with the square root of the sweeps.
+        // In a random walk the displacement grows with the square root of the sweeps.
         const double part = sweeps
                                 ? static_cast<double>(count) / static_cast<double>(*sweeps)
                                 : std::max(std::min(travelled * travelled, static_cast<double>(count) / least_sweeps),

@@ -18,12 +18,12 @@ namespace {
 
 constexpr uint64_t place_stream = 0x706c616365;
 constexpr uint64_t tries = 3;
-// Compression goes to this much above the fraction of random close packing: spheres pressed together that far find
-// closer packings when they are let go than spheres that jam at first touch do (0.645 against 0.639 of the space).
+// Compression goes to this multiple of the random close packing fraction: spheres that are compressed so far find
+// denser packings on decompression than spheres that jam at first contact (fraction 0.645 against 0.639).
 constexpr double overfull = 1.25;
 const std::string command = "scree pack tile";
 
-/// One fraction for the first packing and the variants, which report from several threads.
+/// Combines the progress of the first packing and of the variants, which report from several threads.
 class TileProgress {
 public:
     TileProgress(uint32_t variants, const Progress& progress) : parts_(variants, 0), progress_(progress) {}
@@ -52,11 +52,11 @@ void check_options(uint64_t count, const TileOptions& options)
                              "edges above 0", "--size 1x1x1");
     if (options.fraction && !(*options.fraction > 0 && *options.fraction < 1))
         throw InputError(command, fmt::format("--fraction {}", *options.fraction), "above 0 and below 1, or max",
-                         "equal spheres reach about 0.64 without order");
+                         "equal spheres reach about 0.64 if disordered");
     if (options.variants == 0) throw InputError(command, "--variants 0", "1 variant or more");
 }
 
-/// Spheres must be well smaller than the cuboid, so that none meets itself and no two meet twice.
+/// Spheres must be clearly smaller than the cuboid, so that none touches its own image and no two touch twice.
 void check_room(const TileSpheres& spheres)
 {
     const double largest = 2 * spheres.largest_radius(),
@@ -65,11 +65,11 @@ void check_room(const TileSpheres& spheres)
     throw InputError(
         command,
         fmt::format("a sphere of diameter {:.4g} in a cuboid whose shortest edge is {:.4g}", largest, shortest),
-        "room for at least 1.5 of the largest diameter",
+        "a shortest edge of at least 1.5 times the largest diameter",
         "more spheres, a narrower range of radii, or edges that differ less");
 }
 
-/// Packs variant 0. Throws InputError when it jams before the fraction.
+/// Packs variant 0. Throws InputError if it jams below the fraction.
 void pack_first(TileSpheres& spheres, const TileOptions& options, bool fluid, MadeTile& made, const TileStep& step,
                 const Progress& progress)
 {
@@ -98,15 +98,16 @@ void pack_first(TileSpheres& spheres, const TileOptions& options, bool fluid, Ma
                      "--fraction max packs them until they jam");
 }
 
-/// Radii as files hold them, rounded down: rounding must make no overlap.
+/// The radius as files store it, rounded down, so that rounding creates no overlap.
 float rounded_down(double radius)
 {
     const auto r = static_cast<float>(radius);
     return r > radius ? std::nextafter(r, 0.0f) : r;
 }
 
-/// From a periodic packing to the tile: rows in order, variants, radii. types: by row of the packing, or empty.
-/// goal: the scale of the radii that is enough, or nothing: as large as it gets. may_shrink: whether less will do.
+/// Makes the tile from a periodic packing: orders rows, makes variants, sets radii. types: by row of the packing, or
+/// empty. goal: a sufficient scale of the radii; nothing: as large as possible. may_shrink: whether a smaller scale
+/// than the goal is accepted.
 void finish(TileSpheres spheres, const std::vector<int32_t>& types, std::optional<double> goal, bool may_shrink,
             const TileOptions& options, MadeTile& made, TileProgress& shown, const Progress& progress)
 {
@@ -206,7 +207,7 @@ MadeTile tile_from_frame(const ParticleFrame& frame, const std::string& place, c
     check_room(spheres);
     if (!(spheres.fraction() < 1))
         throw InputError(place, fmt::format("spheres of {:.4g} times the volume of the box", spheres.fraction()),
-                         "less than its volume", "wrong radii?");
+                         "spheres of less volume than the box", "are the radii right?");
 
     MadeTile made;
     TileProgress shown(options.variants, progress);

@@ -11,26 +11,26 @@ namespace {
 
 using Outcome = TileRelaxation::Outcome;
 
-// The net force over the mean force of contacts at which forces balance. Looser takes fewer steps, but the packings jam
-// earlier: by 0.004 of the space at 3e-2. Below a mean overlap of `settled` no sphere changes its neighbours any more,
-// and 5e-2 gives the same packing (to 1e-4 of the space) in half the steps.
+// Forces balance when net force / mean contact force is below `balance`. A looser limit takes fewer steps, but the
+// packings jam earlier: at 3e-2, by 0.004 in fraction. Below a mean overlap of `settled` no sphere changes its
+// neighbours any more, and a limit of 5e-2 gives the same packing (to 1e-4 in fraction) in half the steps.
 constexpr double balance = 1e-2, settled = 1e-3;
 // Overlaps, as part of the sum of radii.
-constexpr double hair = 2e-5; // how much larger radii are while spheres are moved apart
+constexpr double hair = 2e-5; // by how much radii are enlarged while spheres are moved apart
 constexpr double close_enough = 1e-5; // worst overlap at which decompression ends
-constexpr double rough = 8e-2; // the same before spheres are compressed again
+constexpr double rough = 8e-2; // the same, before the spheres are compressed again
 
-/// How far decompression has come: by the logarithm of the overlap, from 0.3 down.
+/// The progress of decompression: by the logarithm of the overlap, from 0.3 down.
 double progress_of(double worst_overlap)
 {
     return std::clamp(1 - std::log(worst_overlap / close_enough) / std::log(0.3 / close_enough), 0.0, 1.0);
 }
 
-/// From a jammed state at `scale` down to where overlaps are at most `enough`; returns the scale it is at then.
+/// Decompresses from a jammed state at `scale` until overlaps are at most `enough`; returns the scale reached.
 double decompress(TileRelaxation& soft, double scale, double enough, const TileStep& step, const Progress& progress)
 {
-    double above = 0, overlap_above = 0; // the state before
-    double below = 0; // where no overlap was left
+    double above = 0, overlap_above = 0; // the previous state
+    double below = 0; // a scale without overlap
     for (int stages = 0; stages < 40; ++stages) {
         const TileRelaxation::State& state = soft.state();
         step(progress_of(state.worst_overlap));
@@ -60,8 +60,8 @@ double decompress(TileRelaxation& soft, double scale, double enough, const TileS
 
 double storage_gap(const TileSpheres& spheres)
 {
-    // Files keep places to 2^-26 of a voxel of four mean radii along each axis (vdb_points.h); of two spheres and in
-    // three axes.
+    // Files round places along each axis by up to 2^-26 of a voxel of four mean radii (vdb_points.h); the errors of two
+    // spheres on three axes add up.
     return 5e-7 * spheres.mean_radius();
 }
 

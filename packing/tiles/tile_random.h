@@ -8,10 +8,10 @@
 
 namespace scree {
 
-/// A stream of random numbers: SplitMix64 (see mixtures/hash.h), the same on every machine.
+/// A stream of random numbers: SplitMix64 (see base/hash.h), the same on every machine.
 class TileRandom {
 public:
-    /// stream: which of the several random things of one seed is meant.
+    /// stream: distinguishes the independent uses of one seed.
     TileRandom(uint64_t seed, uint64_t stream) : state_(hash_key(seed, stream)) {}
 
     uint64_t next() { return mix64(state_ += 0x9e3779b97f4a7c15ull); }

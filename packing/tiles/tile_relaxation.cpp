@@ -14,7 +14,7 @@ namespace scree {
 
 namespace {
 
-// Sums over fixed blocks, added in their order, are the same for any number of threads.
+// Sums over fixed blocks, added in the order of the blocks, are the same for any number of threads.
 constexpr uint64_t block = 256, chunk = 32;
 constexpr uint32_t body_bits = 27;
 constexpr uint32_t body_mask = (1u << body_bits) - 1;
@@ -24,7 +24,7 @@ constexpr double first_dt = 0.1, shortest_dt = 0.01, longest_dt = 0.45;
 constexpr double first_alpha = 0.1, alpha_shrinks = 0.99, dt_grows = 1.1, dt_shrinks = 0.5;
 constexpr int patience = 5;
 
-// Lists hold what is nearer than the sum of radii and this part of the mean radius: little where spheres move little.
+// Lists hold pairs nearer than the sum of radii plus this part of the mean radius: small if spheres move little.
 constexpr double widest_skin = 0.4, narrowest_skin = 0.04;
 
 /// Interleaves the bits of three 10-bit numbers: places near each other get numbers near each other.
@@ -81,8 +81,8 @@ TileRelaxation::TileRelaxation(const TileSpheres& spheres)
     force_.resize(body_.size());
     listed_.resize(body_.size());
     inverse_mass_.resize(body_.size());
-    // A large sphere has contacts in proportion to its surface, and one of sheet 0 has them in every sheet: with a mass
-    // to match, no mode is much faster than others.
+    // A large sphere has contacts in proportion to its surface, and a sphere of sheet 0 has contacts in every sheet.
+    // Masses in proportion to the contacts give all modes similar speeds.
     for (size_t b = 0; b < body_.size(); ++b) {
         const double surface = std::max(1.0, std::pow(body_[b].r / mean_radius_, 2));
         inverse_mass_[b] = 1 / (surface * (sheet_[b] == 0 ? (1.0 + sheets) / 2 : 1.0));
@@ -99,7 +99,7 @@ std::vector<Imath::V3d> TileRelaxation::places() const
     return places;
 }
 
-/// The bodies of each sheet with cells of their own: of other sheets a body need not even look at the spheres.
+/// The bodies of each sheet with cells of their own, so that a body never looks at sheets that it does not meet.
 std::vector<TileRelaxation::Sheet> TileRelaxation::sheets_of(const std::vector<double>& radius,
                                                              const std::vector<Imath::V3d>& place) const
 {
@@ -137,7 +137,7 @@ void TileRelaxation::build_lists(double scale)
     const double widest = 2 * *std::ranges::max_element(radius) + skin_;
     if (widest > std::min({size_.x, size_.y, size_.z})) // an image's shift is one edge at most
         throw InputError("tile", "spheres as wide as the cuboid",
-                         "room for well more than one of the largest beside another",
+                         "a cuboid whose edges are well above the largest diameter",
                          "more spheres, or a narrower range of radii");
     const std::vector<Sheet> sheets = sheets_of(radius, place);
     const uint64_t blocks = (body_.size() + block - 1) / block;
@@ -151,7 +151,7 @@ void TileRelaxation::build_lists(double scale)
                     level, place[b], radius[b] + sheet.cells->level_radius(level) + skin_,
                     [&](uint32_t member, int x, int y, int z) {
                         const uint32_t c = sheet.members[member];
-                        if (c == b) return true; // its own images move with it and push it nowhere
+                        if (c == b) return true; // its own images move with it and do not push it
                         const Imath::V3d d =
                             sheet.place[member] + Imath::V3d(x * size_.x, y * size_.y, z * size_.z) - place[b];
                         const double reach = radius[b] + radius[c] + skin_;
@@ -179,8 +179,7 @@ void TileRelaxation::build_lists(double scale)
 
 TileRelaxation::Sums TileRelaxation::add_forces(double scale, uint64_t begin, uint64_t end)
 {
-    // In passes over arrays, which compilers turn into vector instructions: what is near, how much it overlaps, the
-    // sums.
+    // Passes over arrays, which compilers vectorise: find near bodies, compute overlaps, add up.
     thread_local std::vector<Body> apart;
     thread_local std::vector<double> overlap, push;
     const uint64_t first = starts_[begin], pairs = starts_[end] - first;
@@ -200,7 +199,7 @@ TileRelaxation::Sums TileRelaxation::add_forces(double scale, uint64_t begin, ui
         const Body& a = apart[n];
         const double sum = scale * a.r, d = std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z), h = std::max(sum - d, 0.0);
         overlap[n] = h;
-        // Spheres on one place push each other nowhere; rounding parts them.
+        // Spheres at exactly the same place do not push each other; rounding separates them.
         push[n] = h / std::max(d, 1e-9 * sum);
     }
     Sums sums;
@@ -245,7 +244,7 @@ TileRelaxation::Sums TileRelaxation::all_forces(double scale)
 {
     const uint64_t count = body_.size(), blocks = (count + block - 1) / block;
     std::vector<Sums> parts(blocks);
-    tbb::parallel_for(uint64_t{0}, blocks, [&](uint64_t part) { // A chunk's pairs fit the nearest cache.
+    tbb::parallel_for(uint64_t{0}, blocks, [&](uint64_t part) { // The pairs of a chunk fit into the nearest cache.
         for (uint64_t k = part * block; k < std::min(count, (part + 1) * block); k += chunk)
             parts[part].add(add_forces(scale, k, std::min(count, k + chunk)));
     });
@@ -254,8 +253,8 @@ TileRelaxation::Sums TileRelaxation::all_forces(double scale)
     return sums;
 }
 
-/// Steers by v <- keep v + along F, accelerates (semi-implicit Euler), and moves, nothing farther than `limit`.
-/// Returns the greatest square of a distance from where the lists were built.
+/// Sets v <- keep v + along F, accelerates (semi-implicit Euler), and moves each body by at most `limit`. Returns the
+/// greatest squared distance of a body from its place when the lists were built.
 double TileRelaxation::advance(double dt, double keep, double along, double limit)
 {
     const uint64_t count = body_.size(), blocks = (count + block - 1) / block;

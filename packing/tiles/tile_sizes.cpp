@@ -47,7 +47,7 @@ double quantile(const TileSizes& sizes, double u)
     return 1;
 }
 
-/// The parameters given, held against what the kind has.
+/// The given parameters, checked against the parameters of the kind.
 class Parameters {
 public:
     Parameters(const std::string& kind, std::span<const std::string> words, const std::vector<std::string>& known)
@@ -133,7 +133,7 @@ std::string words_of_sizes(const TileSizes& sizes)
     case TileSizes::Kind::lognormal: return fmt::format("lognormal radii of sigma {:.6g}", sizes.sigma);
     case TileSizes::Kind::power:
         return fmt::format("radii by the power law r^-{:.6g} over a ratio of {:.6g}", sizes.exponent, sizes.ratio);
-    case TileSizes::Kind::sample: return fmt::format("radii as of {} spheres given", sizes.radii.size());
+    case TileSizes::Kind::sample: return fmt::format("radii drawn from {} given spheres", sizes.radii.size());
     }
     return "";
 }

@@ -37,7 +37,7 @@ Imath::V3d wrapped_into(const Imath::V3d& place, const Imath::V3d& size)
     Imath::V3d result;
     for (int axis = 0; axis < 3; ++axis) {
         double x = place[axis] - std::floor(place[axis] / size[axis]) * size[axis];
-        // Rounding can leave the interval at either end.
+        // Rounding can put x just outside 0 <= x < size, at either end.
         if (x < 0) x += size[axis];
         if (x >= size[axis]) x = 0;
         result[axis] = x;
@@ -47,7 +47,7 @@ Imath::V3d wrapped_into(const Imath::V3d& place, const Imath::V3d& size)
 
 namespace {
 
-/// Equal scales: the pair that comes first, whatever the threads did.
+/// Of equal scales, takes the pair that comes first, so that the threads' order does not matter.
 void take_smaller(FittingScale& a, const FittingScale& b)
 {
     const bool earlier = b.rows[0] != a.rows[0] ? b.rows[0] < a.rows[0] : b.rows[1] < a.rows[1];

@@ -7,40 +7,39 @@
 
 namespace scree {
 
-/// Spheres in a periodic cuboid while a packing is made: what the steps of the tile generator hand on.
+/// Spheres in a periodic cuboid while a packing is made: the data that the tile generator's steps exchange.
 ///
-/// Several variants of a packing can be there at once: spheres of different sheets do not see each other, those of
-/// sheet 0 are in every variant, and those of other sheets must lie wholly inside the cuboid, whose faces are walls to
-/// them.
+/// It can hold several variants of a packing at once. Spheres of sheet 0 are in every variant. Spheres of different
+/// other sheets ignore each other; they must lie wholly inside the cuboid, whose faces are walls for them.
 struct TileSpheres {
     Imath::V3d size{1};
     std::vector<double> radius;
     std::vector<Imath::V3d> place; ///< 0 <= x < size
-    std::vector<uint32_t> sheet; ///< empty: one packing, all of sheet 0
+    std::vector<uint32_t> sheet; ///< empty: one packing, all spheres in sheet 0
 
     uint64_t count() const { return radius.size(); }
     uint32_t sheet_of(uint64_t i) const { return sheet.empty() ? 0 : sheet[i]; }
-    /// Whether the two are in one variant.
+    /// Whether some variant contains both spheres.
     bool meet(uint64_t i, uint64_t j) const
     {
         return sheet.empty() || sheet[i] == sheet[j] || sheet[i] == 0 || sheet[j] == 0;
     }
     double mean_radius() const;
     double largest_radius() const;
-    /// Volume of the spheres, of all sheets, over that of the cuboid.
+    /// Volume of the spheres of all sheets over that of the cuboid.
     double fraction() const;
 };
 
-/// The cube root, whose digits do not change with factors of 8 (those of std::cbrt may, by one): a cuboid twice as wide
-/// gives the same tile.
+/// The cube root, with digits that do not change with factors of 8 (the last digit of std::cbrt may): a cuboid twice as
+/// wide gives the same tile.
 double cube_root(double x);
 
-/// The image of a place in the cuboid, 0 <= x < size.
+/// The periodic image of a place that lies in the cuboid, 0 <= x < size.
 Imath::V3d wrapped_into(const Imath::V3d& place, const Imath::V3d& size);
 
-/// How much all radii can be scaled (at most `most`) so that no two spheres come nearer than `gap` (an absolute
-/// length), images included, nor a sphere that must be inside nearer to a face. rows: of the pair that decides, twice
-/// the same for a face.
+/// The largest factor for all radii (at most `most`) at which no two spheres, images included, come nearer than `gap`
+/// (an absolute length), and no sphere that must stay inside comes nearer than that to a face. rows: the pair that
+/// limits the factor; twice the same row for a face.
 struct FittingScale {
     double scale;
     uint64_t rows[2] = {0, 0};

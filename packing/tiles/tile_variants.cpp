@@ -14,16 +14,16 @@ namespace scree {
 namespace {
 
 constexpr uint64_t variant_stream = 0x76617269616e74;
-// How near a face counts as touching it, in radii.
+// A sphere touches a face if it is nearer than this, in radii.
 constexpr double nearly = 1e-5;
-// Compressions, and how far beyond the fraction of the first packing. With 5,000 equal spheres in 4 variants, jammed at
-// 0.644 in the first, one compression gave 0.632, two 0.633 and three 0.634.
+// Number of compressions, and how far each goes beyond the first packing's fraction. With 5,000 equal spheres in 4
+// variants, and the first one jammed at 0.644, one compression gave 0.632, two gave 0.633 and three 0.634.
 constexpr int rounds = 3;
 constexpr double overfull = 1.3;
 
 uint64_t seed_of(uint32_t variant, uint64_t seed) { return hash_index(variant, seed, variant_stream); }
 
-/// All variants as sheets of one system; the inner spheres of all but the first at random places.
+/// Stacks all variants as sheets of one system; inner spheres start at random places, except in the first variant.
 TileSpheres stack_sheets(const TileSpheres& first, uint64_t shared, uint32_t count, uint64_t seed)
 {
     TileSpheres all;
@@ -85,7 +85,7 @@ TileVariants pack_variants(const TileSpheres& spheres, uint64_t shared, uint32_t
                            uint64_t seed, const TileStep& step, const Progress& progress)
 {
     TileSpheres all = stack_sheets(spheres, shared, count, seed);
-    // The fraction of one variant, where the system's counts them all.
+    // `overfull` is relative to one variant's fraction; all.fraction() counts the spheres of all variants.
     const double densest = overfull * std::max(spheres.fraction(), random_close_packing(spheres.radius)) *
                            all.fraction() / spheres.fraction();
     TileVariants result;

@@ -7,7 +7,7 @@ namespace scree {
 void add_pack_command(CLI::App& app)
 {
     CLI::App* pack =
-        app.add_subcommand("pack", "Make periodic tiles of spheres, fill meshes with them, report on packings");
+        app.add_subcommand("pack", "Make periodic tiles of spheres, fill meshes with them, and measure packings");
     pack->require_subcommand(1);
     add_pack_tile_command(*pack);
     add_pack_fill_command(*pack);

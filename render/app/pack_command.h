@@ -6,9 +6,9 @@ class App;
 
 namespace scree {
 
-/// Adds `scree pack tile|fill|report`: makes periodic tiles, fills meshes with them, proves what a packing is.
+/// Adds `scree pack tile|fill|report`: makes periodic tiles, fills meshes with them, and measures packings.
 ///
-/// Outputs appear whole or not at all. Throws InputError out of the parse.
+/// Outputs are written completely or not at all. InputError is thrown out of the parse.
 void add_pack_command(CLI::App& app);
 
 void add_pack_tile_command(CLI::App& pack);

@@ -26,7 +26,7 @@ void run_fill(const FillArguments& a)
 {
     if (lower_case(a.output.extension().string()) != ".vdb")
         throw InputError("--output", "'" + a.output.string() + "'", "a name that ends in .vdb");
-    AtomicFile file(a.output); // can be written, before the work
+    AtomicFile file(a.output); // before the work: throws if it cannot be written
     ConsoleProgress console(a.quiet);
     TriangleMesh mesh = read_mesh(a.mesh);
     std::vector<std::string> changes;
@@ -51,7 +51,7 @@ void run_fill(const FillArguments& a)
     file.commit();
     console.finish();
     if (a.quiet) return;
-    fmt::print("{}: {} spheres, {:.4f} of the mesh's volume of {:g} (the tile: {:.4f})\n", a.output.string(), count,
+    fmt::print("{}: {} spheres fill {:.4f} of the mesh's volume of {:g} (the tile: {:.4f})\n", a.output.string(), count,
                volume / domain->volume(), domain->volume(), tile->fraction());
 }
 
@@ -62,17 +62,17 @@ void add_pack_fill_command(CLI::App& pack)
     auto arguments = std::make_shared<FillArguments>();
     FillArguments& a = *arguments;
     CLI::App* command =
-        pack.add_subcommand("fill", "List the spheres that a fill of a mesh consists of, as OpenVDB points");
-    command->add_option("mesh", a.mesh, "Mesh to fill: OBJ, PLY, STL or OFF; closed, oriented, not intersecting itself")
+        pack.add_subcommand("fill", "Fill a mesh with the spheres of a tile, and write them as OpenVDB points");
+    command->add_option("mesh", a.mesh, "Mesh to fill: OBJ, PLY, STL or OFF; closed, oriented, no self-intersections")
         ->required();
     command->add_option("tile", a.tile, "Periodic packing, as `scree pack tile` writes it (.vdb)")->required();
     command->add_option("-o,--output", a.output, "Points to write (.vdb)")->required();
     command->add_option("--radius", a.fill.radius, "Mean radius of the spheres, in the mesh's unit")
         ->required()
         ->check(CLI::PositiveNumber);
-    command->add_option("--seed", a.fill.seed, "Of which variant of the tile stands where")
+    command->add_option("--seed", a.fill.seed, "Chooses which variant of the tile is used in each place")
         ->check(CLI::NonNegativeNumber);
-    command->add_flag("--repair", a.repair, "Mend the mesh first where it is broken, and say how");
+    command->add_flag("--repair", a.repair, "Repair the mesh first where it is broken, and list the changes");
     command->add_flag("-q,--quiet", a.quiet, "No progress, no summary");
     command->callback([arguments] { run_fill(*arguments); });
 }

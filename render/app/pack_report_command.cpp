@@ -33,7 +33,7 @@ struct ReportArguments {
     bool repair = false, quiet = false;
 };
 
-/// A file that the report goes to, open for writing before the work begins.
+/// A file for the report, opened for writing before the work begins.
 struct Output {
     std::filesystem::path path;
     bool as_json = false;
@@ -70,7 +70,8 @@ ParticleFrame read_points(const std::string& file, PackingSource& source)
     ParticleFrame frame = read_vdb_points(file);
     source.facts.emplace_back("format", "OpenVDB points");
     if (variants > 0)
-        source.notes.push_back(fmt::format("a tile of {} variants: this is variant 0, and ids are rows", variants + 1));
+        source.notes.push_back(
+            fmt::format("a tile of {} variants: the report is on variant 0, and ids are rows", variants + 1));
     const bool periodic = frame.box && std::ranges::count(frame.box->periodic, true) == 3;
     source.hard = periodic;
     return frame;
@@ -94,7 +95,7 @@ ParticleFrame read_dump(const ReportArguments& a, PackingSource& source, const P
     return particles;
 }
 
-/// The mesh with what is asked of it.
+/// The mesh, with what answers questions about it.
 struct Solid {
     std::unique_ptr<Domain> domain;
     std::unique_ptr<InteriorSampler> sampler;
@@ -107,11 +108,11 @@ Solid read_solid(const ReportArguments& a, const ParticleFrame& frame, PackingSo
     TriangleMesh mesh = read_mesh(a.mesh);
     std::vector<std::string> changes;
     if (a.repair) mesh = repair_mesh(mesh, changes);
-    for (const std::string& change : changes) source.notes.push_back("the mesh was mended: " + change);
+    for (const std::string& change : changes) source.notes.push_back("the mesh was repaired: " + change);
     Solid solid;
     solid.domain = std::make_unique<Domain>(std::move(mesh), a.mesh);
     solid.sampler = std::make_unique<InteriorSampler>(*solid.domain);
-    // Voxels of half a radius settle most questions about spheres.
+    // Voxels of half a radius decide most questions about spheres.
     double radius = 0;
     for (const float r : frame.radius) radius += double(r) / double(frame.size());
     const Imath::V3d size = solid.domain->bounds().size();
@@ -130,7 +131,7 @@ void run_report(ReportArguments a)
     take_radii_from_files(a.packing, a.radii);
     if (a.packing.size() != 1)
         throw InputError("scree pack report", fmt::format("{} names", a.packing.size()), "one packing",
-                         "quote patterns from the shell; --frame chooses the frame");
+                         "quote patterns, so that the shell does not expand them; --frame chooses the frame");
     const std::vector<Output> outputs = open_outputs(a);
     ConsoleProgress console(a.quiet);
     const Progress& progress = console.progress();
@@ -170,19 +171,20 @@ void add_pack_report_command(CLI::App& pack)
     ReportArguments& a = *arguments;
     CLI::App* command = pack.add_subcommand(
         "report",
-        "Measure a packing and hold it against theory: fraction, overlaps, containment, g(r), contacts, chords, order");
+        "Measure a packing and compare it with theory: fraction, overlaps, containment, g(r), contacts, chords, order");
     command->add_option("PACKING", a.packing, "A LAMMPS dump, .vdb points, or a tile")->required();
-    command->add_option("--mesh", a.mesh, "The solid it fills: OBJ, PLY, STL or OFF");
-    command->add_flag("--repair", a.repair, "Mend the mesh first where it is broken, and say how");
+    command->add_option("--mesh", a.mesh, "The solid that the packing fills: OBJ, PLY, STL or OFF");
+    command->add_flag("--repair", a.repair, "Repair the mesh first where it is broken, and list the changes");
     command
         ->add_option("-o,--output", a.outputs,
                      "The report: .html (one page with plots) or .json (all numbers); may be given more than once")
         ->expected(1)
         ->take_all()
         ->allow_extra_args(false);
-    command->add_option("--json", a.json, "The numbers as JSON, whatever the name ends in");
-    command->add_option("--frame", a.frame, "Of a dump, from 0; from the end when negative")->capture_default_str();
-    command->add_option("--radius", a.radii, "Radius where the dump has none: R for all, or TYPE=R ...")
+    command->add_option("--json", a.json, "Also write the numbers as JSON to this file, whatever its extension");
+    command->add_option("--frame", a.frame, "Frame of a dump, from 0; negative numbers count from the end")
+        ->capture_default_str();
+    command->add_option("--radius", a.radii, "Radius if the dump has none: R for all, or TYPE=R ...")
         ->expected(1)
         ->take_all()
         ->allow_extra_args(false);

@@ -72,8 +72,8 @@ TileOptions options_of(const TileJob& job)
         if (!options.fraction)
             throw InputError("--fraction", in_quotes(job.fraction), "a number above 0 and below 1, or max");
     }
-    // The faces of dense variants are given, which makes each as dear as a tile: of 10,000 spheres two take 24 s, four
-    // 57 s.
+    // Each dense variant takes as long as a tile, because its boundary spheres are given: with 10,000 spheres, two
+    // variants take 24 s and four 57 s.
     const bool dense = options.fraction.value_or(1) > 0.62 && job.from.empty();
     options.variants = job.variants.value_or(dense ? 1 : options.variants);
     return options;
@@ -110,7 +110,7 @@ void tell(const TileJob& job, const MadeTile& made, const std::string& what)
     const PackingTile& tile = made.tile;
     fmt::print("{}: {} spheres, {}, at fraction {:.6f} in a periodic cuboid of {:.6g} x {:.6g} x {:.6g}\n", job.output,
                tile.rows(), what, tile.fraction(), tile.size.x, tile.size.y, tile.size.z);
-    fmt::print("  mean radius {:.6g}; {} variant{}, {} spheres at the faces in common\n", tile.mean_radius(),
+    fmt::print("  mean radius {:.6g}; {} variant{}, {} shared spheres at the faces\n", tile.mean_radius(),
                tile.variants.size(), tile.variants.size() == 1 ? "" : "s", tile.shared);
     if (!job.from.empty()) {
         if (made.largest_shift == 0)
@@ -120,9 +120,9 @@ void tell(const TileJob& job, const MadeTile& made, const std::string& what)
                 "  the dump's spheres overlapped: they were moved by {:.3g} mean radii on average, {:.3g} at most\n",
                 made.mean_shift, made.largest_shift);
         fmt::print("  radii are {:.6f} of the dump's{}\n", made.radius_scale,
-                   made.radius_scale < 1 - 1e-5 ? ": at their own they jam" : "");
+                   made.radius_scale < 1 - 1e-5 ? ": at the dump's radii the spheres jam" : "");
     } else if (made.jammed_fraction > 0) {
-        fmt::print("  jammed; a single periodic packing jammed at {:.6f}\n", made.jammed_fraction);
+        fmt::print("  jammed; a single periodic packing jammed at fraction {:.6f}\n", made.jammed_fraction);
     }
     if (made.fluid && made.fluid_run.sweeps > 0)
         fmt::print("  hard-sphere fluid after {} sweeps: spheres moved by {:.2f} mean spacings\n",
@@ -163,7 +163,7 @@ void run(TileJob job)
     }
     console.finish();
     write_tile(made.tile, file.temporary());
-    // What will be read is what is promised: files round places.
+    // Report what readers of the file will get: files round places.
     made.tile = read_tile(file.temporary());
     file.commit();
     if (!job.quiet) tell(job, made, what);
@@ -182,8 +182,8 @@ void add_pack_tile_command(CLI::App& pack)
         ->capture_default_str();
     command
         ->add_option("--fraction", job->fraction,
-                     "Part of the volume that spheres fill, or max: until they jam. Up to 0.52 the tile is a "
-                     "hard-sphere fluid in equilibrium")
+                     "Part of the volume that spheres fill, or max: pack until the spheres jam. Up to 0.52 the tile is "
+                     "a hard-sphere fluid in equilibrium")
         ->capture_default_str();
     command
         ->add_option("--sizes", job->sizes,
@@ -195,18 +195,19 @@ void add_pack_tile_command(CLI::App& pack)
     command->add_option("--size", job->size, "Edges of the cuboid")->capture_default_str();
     command
         ->add_option("--variants", job->variants,
-                     "Variants: of the same spheres, alike at the faces, different inside (default 4; above fraction "
-                     "0.62, where each takes as long as a tile, 1)")
+                     "Number of variants: the same spheres, alike at the faces, different inside (default 4; above "
+                     "fraction 0.62, where each takes as long as a tile, 1)")
         ->check(CLI::Range(0u, 64u));
     command->add_option("--seed", job->seed, "The same seed makes the same tile")->capture_default_str();
-    CLI::Option* sweeps =
-        command->add_option("--sweeps", job->sweeps, "Monte Carlo sweeps instead of as many as a fluid needs");
-    command->add_option("--from", job->from, "Cut the tile out of a dump's periodic box, places and types and all");
+    CLI::Option* sweeps = command->add_option("--sweeps", job->sweeps,
+                                              "Number of Monte Carlo sweeps (default: as many as a fluid needs)");
+    command->add_option("--from", job->from,
+                        "Make the tile from the spheres in a dump's periodic box, with their places and types");
     command->add_option("--region", job->region,
                         "x0,x1,y0,y1,z0,z1: cut this cuboid out of the dump and make it periodic");
-    command->add_option("--frame", job->frame, "The dump's frame, from 0; from the end when negative")
+    command->add_option("--frame", job->frame, "Frame of the dump, from 0; negative numbers count from the end")
         ->capture_default_str();
-    command->add_option("--radius", job->radii, "Radius where the dump has none: R for all, or TYPE=R ...")
+    command->add_option("--radius", job->radii, "Radius if the dump has none: R for all, or TYPE=R ...")
         ->expected(1)
         ->take_all()
         ->allow_extra_args(false);

@@ -1,5 +1,5 @@
-// Meshes that bound no solid: each is told by its first defect and place, or repaired with a word on what was changed.
-// None takes the program down or holds it up, TetGen included.
+// Meshes that bound no solid are either refused with their first defect and its place, or repaired with a list of the
+// changes. None of them crashes or stalls the program, TetGen included.
 
 #include "base/error.h"
 #include "packing/solids/domain.h"
@@ -42,7 +42,7 @@ TriangleMesh edited(TriangleMesh mesh, const std::function<void(TriangleMesh&)>&
 
 TriangleMesh unit_box() { return box_mesh(V3d(0), V3d(1)); }
 
-/// The same with a vertex of its own for each corner of each face.
+/// The same mesh with a separate vertex for each corner of each face.
 TriangleMesh exploded(const TriangleMesh& mesh)
 {
     TriangleMesh result;
@@ -54,7 +54,7 @@ TriangleMesh exploded(const TriangleMesh& mesh)
     return result;
 }
 
-/// Replaces vertex `from` in every face.
+/// Replaces vertex `from` by `to` in every face.
 TriangleMesh renamed(TriangleMesh mesh, uint32_t from, uint32_t to)
 {
     for (auto& t : mesh.triangles)
@@ -76,7 +76,7 @@ TriangleMesh moebius_strip()
     }
     for (uint32_t k = 0; k < n; ++k) {
         const uint32_t a = 2 * k, b = 2 * k + 1;
-        // The last pair of edges meets the first turned over.
+        // The last pair of edges is joined to the first with a half turn.
         const bool last = k + 1 == n;
         const uint32_t c = last ? 1 : a + 2, d = last ? 0 : a + 3;
         mesh.triangles.push_back({a, c, b});
@@ -85,7 +85,7 @@ TriangleMesh moebius_strip()
     return mesh;
 }
 
-/// Two boxes that share vertices by number: those at the same place among the corners named.
+/// Two boxes that share vertices: those of their corners that are at the same place.
 TriangleMesh glued(const TriangleMesh& a, const TriangleMesh& b)
 {
     TriangleMesh both = joined(a, b);
@@ -106,7 +106,8 @@ std::vector<BrokenMesh> broken_meshes()
     list.push_back({"vertices alone", edited(cube, [](TriangleMesh& m) { m.triangles.clear(); }), Kind::empty,
                     "no faces (8 vertices)"});
     list.push_back({"missing vertex", edited(cube, [](TriangleMesh& m) { m.triangles[3][1] = 99; }), Kind::degenerate,
-                    "face 3 names vertex 99, and there are 8", 1, "dropped 1 face with a vertex that does not exist"});
+                    "face 3 names vertex 99, but there are only 8", 1,
+                    "dropped 1 face with a vertex that does not exist"});
     list.push_back({"NaN", moved_vertex({1, nan_, 1}), Kind::not_finite, "vertex 7 of face 2 is at (1, nan, 1)",
                     5.0 / 6, "with a vertex that is not finite"});
     list.push_back({"infinite", moved_vertex({1, 1, inf}), Kind::not_finite, "vertex 7 of face 2 is at (1, 1, inf)",
@@ -120,8 +121,8 @@ std::vector<BrokenMesh> broken_meshes()
                            }),
                     Kind::degenerate, "face 12 (vertices 1, 1, 2 at (1, 0, 0), (1, 0, 0), (0, 1, 0)) has no area", 1,
                     "dropped 1 face with a repeated vertex"});
-    // A corner of the lid moved onto an edge's middle makes a face whose corners are in line, and one that overlaps
-    // nothing.
+    // A corner of the lid is moved to the middle of an edge. One face then has its corners on a line, and another one
+    // overlaps nothing.
     list.push_back(
         {"flat face",
          edited(cube,
@@ -157,7 +158,7 @@ std::vector<BrokenMesh> broken_meshes()
                     "edge 3-7 from (1, 1, 0) to (1, 1, 1) has 4 faces", 2, "where parts of the surface touch"});
     list.push_back({"cubes at a face", glued(cube, box_mesh({1, 0, 0}, {2, 1, 1})), Kind::not_manifold, "has 4 faces"});
     list.push_back({"cubes at a vertex", glued(cube, box_mesh({1, 1, 1}, {2, 2, 2})), Kind::not_manifold,
-                    "at vertex 7 at (1, 1, 1) 2 separate fans of faces meet", 2,
+                    "vertex 7 at (1, 1, 1): 2 separate fans of faces meet", 2,
                     "doubled 1 vertex where parts of the surface touch"});
     list.push_back({"duplicate face", edited(cube, [](TriangleMesh& m) { m.triangles.push_back(m.triangles[0]); }),
                     Kind::not_manifold, "edge 0-2 from (0, 0, 0) to (0, 1, 0) has 3 faces (the first of 3 such edges)",
@@ -182,10 +183,11 @@ std::vector<BrokenMesh> broken_meshes()
     list.push_back({"crossing spheres", joined(icosphere(2), moved(icosphere(2), {1, 0.1, 0.2})),
                     Kind::self_intersecting, "meets face"});
     list.push_back({"corner through the floor", moved_vertex({0.6, 0.4, -0.5}), Kind::self_intersecting, "meets face"});
-    // The corner at (1, 1, 1) drawn past the one at the origin: a solid turned inside out, and nothing crosses.
+    // The corner at (1, 1, 1) is moved past the opposite one at the origin: the solid turns inside out without
+    // crossing.
     list.push_back({"corner past the opposite one", moved_vertex({-0.5, -0.5, -0.5}), Kind::inside_out, "face 0 (", 0.5,
                     "turned 1 shell"});
-    // All of the lid folded onto the floor: closed and oriented, and no volume.
+    // All of the lid is folded onto the floor: closed and oriented, but without volume.
     list.push_back({"sheet without thickness",
                     edited(cube,
                            [](TriangleMesh& m) {
@@ -196,7 +198,7 @@ std::vector<BrokenMesh> broken_meshes()
                     {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}},
                     Kind::self_intersecting,
                     "face 0 (vertices 0, 1, 2 at (0, 0, 0), (1, 0, 0), (0, 1, 0)) meets face 1"});
-    // A tetrahedron flattened to a quadrilateral: faces fold back on one another.
+    // A tetrahedron flattened to a quadrilateral: faces fold back onto each other.
     list.push_back({"sliver folds",
                     {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}, {1, 3, 2}, {0, 3, 1}}},
                     Kind::self_intersecting,
@@ -276,8 +278,7 @@ INSTANTIATE_TEST_SUITE_P(All, BrokenMeshes, testing::ValuesIn(broken_meshes()), 
     return name;
 });
 
-// Beyond the list: whatever faces chance draws over a few vertices, everything comes back, and what is accepted is a
-// solid.
+// Random faces over a few vertices, beyond the list above: everything returns, and every accepted mesh is a solid.
 TEST(BrokenMeshesByChance, NothingThrowsAnythingElse)
 {
     uint64_t state = 1, solids = 0;
@@ -287,7 +288,7 @@ TEST(BrokenMeshesByChance, NothingThrowsAnythingElse)
     };
     for (int trial = 0; trial < 300; ++trial) {
         TriangleMesh mesh = unit_box();
-        // Some wrong corners, some places on top of others, some faces lost.
+        // Makes some wrong corners, some vertices at the place of another, and some missing faces.
         for (uint64_t k = draw(4); k > 0; --k)
             mesh.triangles[draw(mesh.triangles.size())][draw(3)] = static_cast<uint32_t>(draw(9));
         for (uint64_t k = draw(3); k > 0; --k)
@@ -302,7 +303,7 @@ TEST(BrokenMeshesByChance, NothingThrowsAnythingElse)
         EXPECT_GT(Domain(repaired, "repaired").volume(), 0) << "trial " << trial;
         EXPECT_EQ(changes.empty(), find_defects(mesh).empty()) << "trial " << trial;
     }
-    EXPECT_GT(solids, 30u); // chance makes both
+    EXPECT_GT(solids, 30u); // some random meshes must be repairable, or the test shows little
 }
 
 TEST(Repair, LeavesASolidAlone)

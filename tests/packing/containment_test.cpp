@@ -25,7 +25,7 @@ struct Ball {
     double radius;
 };
 
-/// A stream of numbers for one ball.
+/// A stream of random numbers for one ball.
 class Numbers {
 public:
     explicit Numbers(uint64_t index) : index_(index) {}
@@ -44,8 +44,8 @@ double moved_by_units(double x, int units)
     return x;
 }
 
-/// Half anywhere, with radii over four decades; a quarter near a triangle, some right on it; a quarter with the radius
-/// that just fits, or up to two units in the last place from it.
+/// Half of the balls are anywhere, with radii over four decades. A quarter is near a triangle, some exactly on it. A
+/// quarter has the radius that just fits, or one within two units in the last place of it.
 Ball random_ball(const TriangleMesh& mesh, const Domain& domain, uint64_t index)
 {
     Numbers u(index);
@@ -55,7 +55,7 @@ Ball random_ball(const TriangleMesh& mesh, const Domain& domain, uint64_t index)
     if (kind == 0) {
         const auto& t = mesh.triangles[u.bits() % mesh.triangles.size()];
         const double a = u.unit(), b = u.unit() * (1 - a);
-        // Weights of 0 and 1 put it on edges and corners.
+        // Weights of 0 and 1 put the place on edges and corners.
         const double snap = u.unit();
         const double wa = snap < 0.2 ? 0 : snap < 0.3 ? 1 : a, wb = snap < 0.25 ? 0 : snap < 0.3 ? 0 : b;
         const V3d p = mesh.positions[t[0]] + (mesh.positions[t[1]] - mesh.positions[t[0]]) * wa +
@@ -92,7 +92,7 @@ void compare_with_all_triangles(const TriangleMesh& mesh)
             ADD_FAILURE() << "ball " << k << " at " << ball.centre << " radius " << ball.radius << ": " << answer;
     });
     EXPECT_EQ(wrong, 0u);
-    // Both answers are asked for, else this shows little.
+    // Both answers must occur often, or the test shows little.
     EXPECT_GT(inside, count / 100);
     EXPECT_LT(inside, count - count / 10);
     testing::Test::RecordProperty("inside", std::to_string(inside));
@@ -101,8 +101,8 @@ void compare_with_all_triangles(const TriangleMesh& mesh)
 /// A cube of edge 200 with a cubic cavity of edge 20 in its middle.
 TriangleMesh hollow_cube() { return joined(box_mesh(V3d(-100), V3d(100)), flipped(box_mesh(V3d(-10), V3d(10)))); }
 
-/// Balls in the hollow cube that touch a face, an edge and a corner of the cavity, and a face outside: all in whole
-/// numbers.
+/// Balls in the hollow cube that touch a face, an edge or a corner of the cavity, or an outer face; all coordinates are
+/// integers.
 const std::vector<Ball> touching = {{{17, 0, 0}, 7},     {{13, 14, 0}, 5}, {{12, 13, 16}, 7},
                                     {{-12, 16, -13}, 7}, {{60, 0, 0}, 40}, {{15, -22, 3}, 13}};
 
@@ -116,7 +116,7 @@ TEST(Containment, OpenWorkedCsgShape) { compare_with_all_triangles(bored_cube(14
 
 TEST(Containment, TouchingIsInsideAndOneUnitMoreIsNot)
 {
-    // Powers of two up to where squares overflow or vanish, coordinates become subnormal; and far from the origin.
+    // Powers of two up to where squares overflow or vanish and coordinates become subnormal; then far from the origin.
     for (const int exponent : {0, 60, -60, 900, -900, 1000, -1030}) {
         const double scale = std::ldexp(1.0, exponent);
         const Domain domain(scaled(hollow_cube(), scale), "hollow cube");
@@ -148,8 +148,8 @@ TEST(Containment, PointsOfTheSurfaceAreNotInside)
         EXPECT_FALSE(domain.contains_sphere(p, 1e-300)) << p;
     }
     EXPECT_FALSE(domain.contains({0, 0, 0})); // in the cavity
-    EXPECT_FALSE(domain.contains({0, 0, std::nextafter(10.0, 0)})); // one unit below its lid
-    EXPECT_TRUE(domain.contains({0, 0, std::nextafter(10.0, 11)})); // and above
+    EXPECT_FALSE(domain.contains({0, 0, std::nextafter(10.0, 0)})); // one unit below the cavity's upper face
+    EXPECT_TRUE(domain.contains({0, 0, std::nextafter(10.0, 11)})); // one unit above
     EXPECT_TRUE(domain.contains_sphere({0, 0, std::nextafter(10.0, 11)}, 0x1p-49));
     EXPECT_FALSE(domain.contains_sphere({0, 0, std::nextafter(10.0, 11)}, 0x1.8p-49));
 }
@@ -169,7 +169,7 @@ TEST(Containment, WhatIsNoBallIsNotInside)
     EXPECT_FALSE(domain.contains_sphere(V3d(0, 0, 1e300), 0));
 }
 
-// Rays go straight up: through corners and along edges, where a count of crossings goes wrong most easily.
+// The rays that count crossings go straight up: through corners and along edges, where counting goes wrong most easily.
 TEST(Containment, RaysThroughCornersAndEdges)
 {
     const TriangleMesh octahedron = {

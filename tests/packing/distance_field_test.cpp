@@ -26,7 +26,7 @@ V3d random_place(const Imath::Box3d& box, double margin, uint64_t index)
     return box.min - box.size() * margin + u * size;
 }
 
-/// Places near the surface: a random point of a random face, and off it by some part of `reach`.
+/// A place near the surface: a random point of a random face, moved off it by a random part of `reach`.
 V3d place_near_surface(const TriangleMesh& mesh, double reach, uint64_t index)
 {
     const auto number = [&](uint64_t stream) { return unit_double(hash_index(index, 6, stream)); };
@@ -38,8 +38,8 @@ V3d place_near_surface(const TriangleMesh& mesh, double reach, uint64_t index)
            (V3d(number(3), number(4), number(5)) - V3d(0.5)) * off;
 }
 
-/// The interval holds the truth everywhere, and (narrow) within two voxels of the surface is no wider than the way to
-/// the voxel's centre and back.
+/// The interval contains the truth everywhere. If `narrow`, within two voxels of the surface it is also no wider than
+/// a voxel's diagonal.
 void expect_right(const TriangleMesh& mesh, int cells, uint64_t count, bool narrow = true)
 {
     const Domain domain(mesh, "solid");
@@ -51,14 +51,14 @@ void expect_right(const TriangleMesh& mesh, int cells, uint64_t count, bool narr
         const V3d p = k % 2 ? random_place(domain.bounds(), 0.1, k) : place_near_surface(mesh, 6 * voxel, k);
         const DistanceField::Interval d = field.signed_distance(p);
         const double unsigned_truth = domain.distance(p), truth = domain.contains(p) ? unsigned_truth : -unsigned_truth;
-        // The truth itself is rounded.
+        // The truth itself has a rounding error.
         const double rounding = 4e-14 * size.length();
         if (!(truth >= d.lo - rounding && truth <= d.hi + rounding) && wrong++ < 5) {
             ADD_FAILURE() << "at " << p << ": " << truth << " is not in " << d.lo << " .. " << d.hi;
         }
         if (unsigned_truth > 1.5 * voxel) return;
         ++near;
-        // A half diagonal of a voxel each way.
+        // Half a voxel's diagonal on each side.
         wide += !(d.hi - d.lo <= 2 * std::sqrt(0.75) * voxel * (1 + 1e-5));
     });
     EXPECT_EQ(wrong, 0u);
@@ -90,7 +90,7 @@ TEST(DistanceField, AnyScaleAndPlaceWillDo)
     const TriangleMesh mesh = torus(1, 0.4, 24, 12);
     for (const double scale : {0x1p-900, 0x1p-60, 0x1p60, 0x1p900}) expect_right(scaled(mesh, scale), 40, 4000);
     expect_right(moved(mesh, {1e7, -1e6, 1e5}), 40, 20'000);
-    // As far as doubles are a hundredth of the size apart.
+    // So far from the origin that neighbouring doubles differ by a hundredth of the size.
     expect_right(moved(box_mesh(V3d(0), V3d(64)), {0x1p52, 0x1p52, 0}), 30, 4000, false);
 }
 
@@ -106,7 +106,7 @@ TEST(DistanceField, TellsTheSignAwayFromTheSurface)
     EXPECT_GT(field.signed_distance(V3d(0)).lo, 0.6); // a lower bound for a whole block
     EXPECT_GT(field.signed_distance(V3d(0.9, 0, 0)).lo, 0);
     EXPECT_LT(field.signed_distance(V3d(1.1, 0, 0)).hi, 0);
-    // Outside of the lattice the bounds of the domain tell.
+    // Outside the lattice the bounds of the domain give the distance.
     EXPECT_NEAR(field.signed_distance(V3d(11, 0, 0)).hi, -10, 0.01);
     EXPECT_LE(field.signed_distance(V3d(0, 0, -1e300)).hi, -1e299);
     EXPECT_LE(field.signed_distance(V3d(0, HUGE_VAL, 0)).hi, 0);

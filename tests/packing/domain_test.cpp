@@ -48,7 +48,7 @@ TEST(Domain, AcceptsCavitiesIslandsAndSeveralPieces)
     expect_solid(joined(joined(cube, flipped(small)), smaller), 57);
     expect_solid(joined(flipped(small), joined(smaller, cube)), 57);
     expect_solid(joined(cube, moved(cube, {5, 0, 0})), 128);
-    // Pieces that touch at a corner or along an edge, each with its own vertices, overlap nowhere.
+    // Pieces that touch at a corner or along an edge, each with its own vertices, do not overlap.
     expect_solid(joined(cube, moved(cube, {4, 4, 4})), 128);
     expect_solid(joined(cube, moved(cube, {4, 4, 0})), 128);
 }
@@ -75,7 +75,7 @@ TEST(Domain, ThinWallsKeepTheirVolume)
     // The shell's volume is that of the ball times 1 - (1 - t)^3.
     const double t = 1e-6, ball = Domain(icosphere(3), "ball").volume();
     EXPECT_NEAR(Domain(double_walled_shell(3, t), "shell").volume() / (ball * (1 - std::pow(1 - t, 3))), 1, 1e-9);
-    // 24 tori about a full turn.
+    // The volume of a torus is 2 pi^2 R r^2.
     const double pi = std::numbers::pi;
     EXPECT_NEAR(Domain(torus(2, 0.5, 400, 200), "torus").volume(), 2 * pi * pi * 2 * 0.25, 0.003);
 }
@@ -135,8 +135,8 @@ TEST(Domain, ManyThreadsGetTheAnswersOfOne)
     EXPECT_EQ(one, many);
 }
 
-// Triangles of all shapes, from needles to 1e-12 of their length, at distances of all sizes: the truth is always within
-// the bounds.
+// Triangles of all shapes, down to needles of width 1e-12 of their length, at distances of all sizes: the truth is
+// always within the bounds.
 TEST(ExactDistance, BoundsHoldTheTruth)
 {
     for (uint64_t k = 0; k < 8000; ++k) {
@@ -156,16 +156,16 @@ TEST(ExactDistance, BoundsHoldTheTruth)
         const V3d p = a + (b - a) * u + (c - a) * v + draw() * (k % 10 == 0 ? 0 : far);
         const DistanceBounds d = bound_distance(p, {a, b, c}, 0.25);
         EXPECT_LE(d.lo, d.hi);
-        // Rounding 4 lo and 4 hi is none: 0.25 is a power of two.
+        // 4 lo and 4 hi are not rounded: 4 is a power of two.
         EXPECT_GE(compare_distance(p, a, b, c, 4 * d.lo), 0) << k;
         EXPECT_LE(compare_distance(p, a, b, c, 4 * d.hi), 0) << k;
-        // Rounding tilts the direction of a needle's plane by some units times length over height, and that of a short
-        // way by some units times the length over it.
+        // Rounding tilts the direction of a needle's plane by a few units times length over height, and the direction
+        // of a short distance by a few units times length over distance.
         const double length = std::max({(b - a).length(), (c - b).length(), (a - c).length()});
         const double height = (b - a).cross(c - a).length() / length;
         const double reach = std::max({(a - p).length(), (b - p).length(), (c - p).length()});
         if (d.lo > 0 &&
-            height > 1e-4 * length) { // at needles rounding may take the wrong way: exact arithmetic is for them
+            height > 1e-4 * length) { // rounding may choose a wrong direction for needles: left to exact arithmetic
             EXPECT_LE(4 * (d.hi - d.lo), 0x1p-53 * reach * (80 + 64 * length / height + 64 * length / (4 * d.lo))) << k;
         }
         EXPECT_EQ(is_nearer_exactly(p, {a, b, c}, 4 * d.hi + 1e-13), true);

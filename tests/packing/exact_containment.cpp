@@ -34,7 +34,7 @@ IntervalVector cross(const IntervalVector& a, const IntervalVector& b)
 
 Interval square(const IntervalVector& a) { return CGAL::square(a.x) + CGAL::square(a.y) + CGAL::square(a.z); }
 
-/// From the origin to the segment a to b.
+/// From the origin to the segment from a to b.
 Interval squared_distance(const IntervalVector& a, const IntervalVector& b)
 {
     const IntervalVector e = b - a;
@@ -80,11 +80,11 @@ int compare_distance(const V3d& point, const V3d& a, const V3d& b, const V3d& c,
 struct ExactSolid::Impl {
     const TriangleMesh mesh;
     std::vector<Imath::Box3d> boxes;
-    double far = 0; ///< some times the size
+    double far = 0; ///< a few times the solid's size
 
     const V3d& corner(size_t face, size_t k) const { return mesh.positions[mesh.triangles[face][k]]; }
 
-    /// Whether the box of a face is surely farther than the radius.
+    /// Whether the box of a face is certainly farther than the radius.
     bool is_far(size_t face, const V3d& p, double radius) const
     {
         const auto& [lo, hi] = boxes[face];
@@ -138,7 +138,7 @@ bool ExactSolid::encloses(const V3d& point) const
     const auto at = [](const V3d& p) { return Filtered::Point_3(p.x, p.y, p.z); };
     const Filtered::Point_3 p = at(point);
     for (int turn = 0;; ++turn) {
-        // Far beyond the solid, each time elsewhere.
+        // Far outside the solid, in a new direction each time.
         const V3d direction(std::cos(1.0 + turn), std::sin(1.0 + turn), 0.3 + 0.1 * turn);
         const Filtered::Point_3 q = at(point + direction * impl_->far);
         bool odd = false, clear = true;
@@ -149,7 +149,7 @@ bool ExactSolid::encloses(const V3d& point) const
             const CGAL::Sign ab = CGAL::orientation(p, q, a, b), bc = CGAL::orientation(p, q, b, c),
                              ca = CGAL::orientation(p, q, c, a);
             if (std::min({ab, bc, ca}) == CGAL::NEGATIVE && std::max({ab, bc, ca}) == CGAL::POSITIVE) continue;
-            // Meets the triangle, or an edge of it, or its plane: only the first is clear.
+            // The ray meets the triangle, one of its edges, or its plane only: the first case alone is clear.
             clear = ab != CGAL::ZERO && ab == bc && bc == ca && from != CGAL::ZERO && to != CGAL::ZERO;
             odd ^= clear;
         }

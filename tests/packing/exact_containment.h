@@ -8,9 +8,8 @@
 
 namespace scree {
 
-/// Answers about a solid by going through all its triangles, in arithmetic that cannot be wrong: CGAL's intervals where
-/// they decide, its rational squared distances where they do not, its exact orientations. Shares nothing with Domain.
-/// Any thread.
+/// Answers about a solid from all its triangles, in arithmetic that is never wrong: CGAL's intervals where they decide,
+/// else its rational squared distances, and its exact orientations. Shares no code with Domain. Any thread.
 class ExactSolid {
 public:
     explicit ExactSolid(const TriangleMesh& mesh);
@@ -18,11 +17,11 @@ public:
     ExactSolid(const ExactSolid&) = delete;
     ExactSolid& operator=(const ExactSolid&) = delete;
 
-    /// Whether the ball is inside.
+    /// Whether the whole ball is inside.
     bool contains_sphere(const Imath::V3d& centre, double radius) const;
-    /// By the crossings of a slanted ray; another one where it meets an edge. Not for points of the surface.
+    /// By counting crossings of a slanted ray; takes another ray if one meets an edge. Not for points on the surface.
     bool encloses(const Imath::V3d& point) const;
-    /// Unsigned, the root of the exact least square rounded to double.
+    /// Unsigned distance: the root of the exact least square, rounded to double.
     double distance(const Imath::V3d& point) const;
 
 private:
@@ -30,7 +29,7 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Square of the distance from a point to a triangle as a rational number, less that of `distance`: its sign.
+/// The sign of (exact squared distance from a point to a triangle) minus (exact square of `distance`).
 int compare_distance(const Imath::V3d& point, const Imath::V3d& a, const Imath::V3d& b, const Imath::V3d& c,
                      double distance);
 

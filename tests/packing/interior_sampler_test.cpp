@@ -24,7 +24,7 @@ using testing::StartsWith;
 
 namespace {
 
-/// A program in a file of its own, gone at the end.
+/// A program in a file of its own, which is removed at the end.
 class Script {
 public:
     explicit Script(const std::string& text)
@@ -52,11 +52,11 @@ double six_volumes(const Tetrahedra& t, size_t k)
         (t.points[t.cells[k][1]] - a).dot((t.points[t.cells[k][2]] - a).cross(t.points[t.cells[k][3]] - a)));
 }
 
-/// Volumes, first and second moments of the solid that tetrahedra around the origin, with signs, make of its faces:
-/// exact for polyhedra, and nothing of the sampler's.
+/// Volume, first and second moments of a solid, from signed tetrahedra between the origin and its faces: exact for
+/// polyhedra, and independent of the sampler.
 struct Moments {
     double volume = 0;
-    V3d first{0}, second{0}; ///< of x, y, z, and of their squares, over the volume
+    V3d first{0}, second{0}; ///< of x, y, z and of their squares, divided by the volume
 };
 
 Moments moments_of(const TriangleMesh& mesh)
@@ -77,8 +77,8 @@ Moments moments_of(const TriangleMesh& mesh)
 
 const uint64_t sample_count = 100'000;
 
-/// Mean places and squares are those of the solid: |z| < 4.5 for each of 6 (chance of a false alarm 4e-5 for all
-/// together).
+/// Mean places and squares are those of the solid: |z| < 4.5 for each of 6 values (chance of a false alarm: 4e-5 for
+/// all six together).
 void expect_moments(const InteriorSampler& sampler, const TriangleMesh& mesh)
 {
     const Moments truth = moments_of(mesh);
@@ -96,7 +96,7 @@ void expect_moments(const InteriorSampler& sampler, const TriangleMesh& mesh)
     }
 }
 
-/// In cells of a lattice that lie wholly inside, points are as many as the cells' share of the volume says
+/// The number of points in each lattice cell that lies wholly inside matches the cell's share of the volume
 /// (chi-square).
 void expect_uniform(const InteriorSampler& sampler, const Domain& domain, int cells)
 {
@@ -210,7 +210,7 @@ TEST(InteriorSampler, AnyScaleWillDo)
     }
 }
 
-// What stands in for TetGen below fails in each way a program can.
+// A script replaces TetGen below, and fails in each way a program can fail.
 struct Failure {
     const char* script;
     const char* method;
@@ -258,7 +258,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, FailingTetGen,
 
 TEST(WorkerProcess, IsKilledWhenItTakesTooLong)
 {
-    const std::vector<char> input(10'000'000, 'x'); // more than any buffer between holds
+    const std::vector<char> input(10'000'000, 'x'); // more than any pipe buffer holds
     for (const char* script :
          {"sleep 100", "exec 0<&- 1>&-; sleep 100", "while :; do :; done", "cat > /dev/null; sleep 100"}) {
         const auto start = std::chrono::steady_clock::now();
@@ -303,7 +303,7 @@ TEST(Tetrahedralize, FillsCavitiesAsRegionsOfTheirOwn)
                                                        testing::DoubleNear(1 - cavity, 1e-12)));
 }
 
-// Straight at TetGen what no check of ours would let through.
+// Passes surfaces to TetGen directly that the checks would reject.
 TEST(Tetrahedralize, HostileSurfacesDoNoHarm)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -1,5 +1,5 @@
-// Which spheres a fill has: those of the repeated tile that lie whole in the domain, each once, whoever asks and in
-// what order.
+// The spheres of a fill are the spheres of the repeated tile that lie wholly in the domain, each once, for any caller
+// and any order of calls.
 
 #include "packing/fill/list_fill.h"
 
@@ -68,7 +68,7 @@ TEST(ProceduralFill, HasExactlyTheWholeSpheresOfTheRepeatedTile)
     for (size_t i = 0; i < all.size(); ++i)
         ASSERT_TRUE(listed.emplace(all.id[i], all.position[i]).second) << "twice " << all.id[i];
 
-    // Every sphere of every numbered cell, by the domain alone.
+    // Every sphere of every numbered cell, tested with the domain alone.
     uint64_t whole = 0;
     for (uint64_t cell = 0; cell < fill.cell_count(); ++cell) {
         for (uint64_t row = 0; row < tile->rows(); ++row) {
@@ -80,7 +80,7 @@ TEST(ProceduralFill, HasExactlyTheWholeSpheresOfTheRepeatedTile)
     }
     EXPECT_EQ(whole, listed.size());
     EXPECT_GT(whole, 500u);
-    // Some boundary is left empty, as only whole spheres count: less than a layer of one diameter.
+    // Since only whole spheres count, part of the boundary is empty: less than a layer of one diameter.
     EXPECT_LT(static_cast<double>(whole), fill.expected_count());
     EXPECT_GT(static_cast<double>(whole), 0.6 * fill.expected_count());
 

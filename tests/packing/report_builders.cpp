@@ -13,7 +13,7 @@ using Imath::V3d;
 
 namespace {
 
-/// The cells of a periodic cube, each with its spheres, for Metropolis moves.
+/// The cells of a periodic cube, each with its spheres, for Metropolis moves of single spheres.
 class MoveCells {
 public:
     MoveCells(const std::vector<V3d>& positions, double edge, double reach)
@@ -31,7 +31,7 @@ public:
         cells_[b].push_back(i);
     }
 
-    /// Whether none of the spheres around `place`, but i, overlaps a sphere of radius r there.
+    /// Whether a sphere of radius r at `place` overlaps none of the spheres except i.
     bool free(size_t i, const V3d& place, double r, const std::vector<V3d>& positions,
               const std::vector<float>& radii) const
     {

@@ -32,7 +32,7 @@ PackingSource tile_source()
     return source;
 }
 
-/// 16,384 equal spheres in equilibrium at f = 0.3.
+/// 16,384 equal spheres in equilibrium at fraction 0.3.
 const ParticleFrame& fluid()
 {
     static const ParticleFrame frame = test::hard_sphere_fluid(16, 0.3, 150, 7);
@@ -45,7 +45,7 @@ const PackingReport& fluid_report()
     return report;
 }
 
-/// Each test runs in a process of its own, and the report takes seconds: one test asks all of it.
+/// Each test runs in a process of its own, and a report takes seconds, so one test checks all of it.
 TEST(ReportFluid, IsWhatTheorySays)
 {
     {
@@ -60,7 +60,7 @@ TEST(ReportFluid, IsWhatTheorySays)
     }
     {
         SCOPED_TRACE("the pair correlation follows Percus and Yevick");
-        // Percus and Yevick are within 4 % of the fluid beyond 1.1 diameters at this fraction (Verlet, Weis 1972); bins
+        // At this fraction Percus-Yevick is within 4 % of the fluid beyond 1.1 diameters (Verlet, Weis 1972); bins
         // scatter by 2 %.
         const PairCorrelation& g = fluid_report().correlation;
         const std::vector<double> theory = percus_yevick(0.3, 100, 5);
@@ -75,7 +75,7 @@ TEST(ReportFluid, IsWhatTheorySays)
         EXPECT_NEAR(c.mean.value, c.expected, 4 * c.mean.standard_error);
         EXPECT_LT(c.mean.standard_error, 0.003 * c.expected);
         EXPECT_NEAR(c.solid_part, 0.3, 2e-3);
-        // The distribution is a density: whole chords, of which few are longer than eight means.
+        // The distribution is a density of complete chords, few of which are longer than eight means.
         double sum = 0, mean = 0;
         for (size_t k = 0; k < c.density.size(); ++k) {
             sum += c.density[k] * VoidChords::bin_width;
@@ -97,7 +97,8 @@ TEST(ReportFluid, IsWhatTheorySays)
 
 TEST(ReportFluid, CompressedFluidThatIsNoneFails)
 {
-    // The fluid at 0.3 blown up to a box for 0.2: holes around every sphere, and the contact value is 0.
+    // The fluid at 0.3 expanded to the box of fraction 0.2: there is a gap around every sphere, so the contact value is
+    // 0.
     ParticleFrame frame = test::scaled(fluid(), std::cbrt(1.5));
     for (float& r : frame.radius) r = 0.5f;
     EXPECT_EQ(verdicts_of(make_packing_report(PackedSpheres(frame, "blown up"), tile_source())).at("contact_value"),
@@ -145,7 +146,7 @@ TEST(ReportFluid, TheSameInAnyUnit)
 
 TEST(ReportPacking, ABedWithoutBoxIsMeasuredInItsMiddle)
 {
-    // The same fluid, of which nobody tells that it repeats.
+    // The same fluid without the information that it is periodic.
     const PackedSpheres spheres(test::without_box(fluid()), "bed");
     ASSERT_EQ(spheres.container(), PackedSpheres::Container::bed);
     const SolidFraction f = measure_fraction(spheres);
@@ -178,12 +179,12 @@ TEST(ReportPacking, OverlapsAreFoundWithTheirIds)
     EXPECT_GE(n.overlapping, 1u);
     const PackingReport r = make_packing_report(PackedSpheres(frame, "fluid"), tile_source());
     EXPECT_EQ(verdicts_of(r).at("overlap"), Verdict::fail);
-    EXPECT_EQ(verdicts_of(r).at("fraction"), Verdict::pass); // the shared lens is allowed for
+    EXPECT_EQ(verdicts_of(r).at("fraction"), Verdict::pass); // the claim corrects for the shared volume
 }
 
 TEST(ReportPacking, LensVolumeIsWhatIsSummedTwice)
 {
-    // Two balls d apart, radii 1 and 0.7: pi (r+s-d)^2 (d^2 + 2d(r+s) - 3(r-s)^2) / 12d.
+    // Two balls at distance d, with radii 1 and 0.7: pi (r+s-d)^2 (d^2 + 2d(r+s) - 3(r-s)^2) / 12d.
     const ParticleFrame frame = test::periodic_frame({V3d(2), V3d(3, 2, 2)}, {1, 0.7f}, V3d(6));
     const NearPairs n = measure_near_pairs(PackedSpheres(frame, "two"));
     const double d = 1, r = 1, s = 0.7f;
@@ -217,15 +218,15 @@ TEST(ReportPacking, PushedApartBedIsNoCrystalButSoft)
 
 TEST(ReportPacking, RattlersAreTakenOutAgainAndAgain)
 {
-    // An fcc crystal with one sphere of half the size: nothing holds it, and its twelve neighbours still hold each
-    // other.
+    // An fcc crystal in which one sphere has half the size: it has no contacts, and its twelve neighbours are still
+    // held by the others.
     ParticleFrame frame = test::lattice("fcc", 4);
     frame.radius[10] = 0.25f;
     const NearPairs n = measure_near_pairs(PackedSpheres(frame, "defect"));
     EXPECT_EQ(n.rattlers, 1u);
     EXPECT_EQ(n.contact_counts.at(0), 1u);
     EXPECT_EQ(n.contact_counts.at(11), 12u);
-    // A chain leans on itself alone, and falls apart from its ends.
+    // In a chain only neighbours hold each other, so it falls apart from its ends.
     std::vector<V3d> chain;
     for (int i = 0; i < 6; ++i) chain.emplace_back(i, 5, 5);
     const NearPairs c =

@@ -154,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ReportLattice, testing::Range<size_t>(0, truths.
 
 TEST(ReportLatticeImages, OneCellIsAsGoodAsMany)
 {
-    // Four spheres whose neighbours are images, of themselves too.
+    // Four spheres whose neighbours are images, including images of themselves.
     const PackedSpheres one(test::lattice("fcc", 1), "lattice");
     const double density = 4 / one.volume();
     EXPECT_DOUBLE_EQ(measure_near_pairs(one).mean_contacts, 12);

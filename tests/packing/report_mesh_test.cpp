@@ -16,7 +16,7 @@ namespace {
 
 using Imath::V3d;
 
-/// The cube -1..1 filled with those spheres of a fluid at f = 0.3 that are whole inside.
+/// The cube -1..1 filled with the spheres of a fluid at fraction 0.3 that are wholly inside.
 class ReportMesh : public testing::Test {
 protected:
     static ParticleFrame filled()
@@ -80,7 +80,7 @@ TEST_F(ReportMesh, AFillIsWhatItClaims)
     for (const char* key : {"fraction", "overlap", "containment", "chords", "contact_value", "crystal"})
         EXPECT_EQ(verdicts.at(key), Verdict::pass) << key;
 
-    // Against depth: nothing at the surface, the whole beyond two radii.
+    // The profile against depth: 0 at the surface, the full fraction beyond two radii.
     ASSERT_EQ(r.profiles.size(), 1u);
     const FractionProfile& p = r.profiles[0];
     EXPECT_NEAR(p.width, 0.01, 1e-9);
@@ -141,7 +141,7 @@ TEST_F(ReportMesh, NoBulkIsSaidAndNotGuessed)
     EXPECT_EQ(verdicts.at("containment"), Verdict::pass);
     for (const char* key : {"chords", "contact_value", "crystal", "cells", "contacts", "profile"})
         EXPECT_EQ(verdicts.at(key), Verdict::info) << key;
-    EXPECT_NE(html_of(r).find("what is said of the bulk is left out"), std::string::npos);
+    EXPECT_NE(html_of(r).find("measurements of the bulk are left out"), std::string::npos);
 }
 
 } // namespace

@@ -70,7 +70,7 @@ TEST(SvgPlot, PlacesValuesOnItsAxes)
     plot.y_range = {0, 1};
     plot.series.push_back({"", PlotSeries::Style::dots, {0, 5, 10}, {0, 0.5, 1}, {}});
     const std::string svg = svg_of(plot);
-    // From 66 to 546 across, and from 282 at the bottom to 14.
+    // The plot's area is 66 to 546 across, and 282 (bottom) to 14 (top).
     EXPECT_THAT(svg, HasSubstr("cx=\"66.00\" cy=\"282.00\""));
     EXPECT_THAT(svg, HasSubstr("cx=\"306.00\" cy=\"148.00\""));
     EXPECT_THAT(svg, HasSubstr("cx=\"546.00\" cy=\"14.00\""));

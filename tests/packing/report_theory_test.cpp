@@ -57,7 +57,7 @@ TEST(ReportTheory, PercusYevickAtContact)
 
 TEST(ReportTheory, PercusYevickConverges)
 {
-    // The trapezoid rule: four times finer steps, sixteen times less error.
+    // The trapezoid rule: steps a quarter as long give a sixteenth of the error.
     for (const double x : {1.5, 2.0, 3.25}) {
         const auto at = [&](int steps) {
             return percus_yevick(0.4, steps, 4)[static_cast<size_t>(std::lround((x - 1) * steps))];
@@ -118,7 +118,7 @@ TEST(ReportTheory, FabricOfKnownDirections)
     EXPECT_NEAR(line.deviatoric, 1, 1e-12);
     EXPECT_NEAR(line.eigenvalues[0], 1, 1e-12);
     EXPECT_NEAR(line.eigenvalues[2], 0, 1e-12);
-    // Half along (1, 1, 0) / sqrt(2), half along z.
+    // Half of the directions along (1, 1, 0) / sqrt(2), half along z.
     const FabricTensor two = fabric_of({1, 1, 2, 1, 0, 0}, 4);
     EXPECT_NEAR(two.eigenvalues[0], 0.5, 1e-12);
     EXPECT_NEAR(two.eigenvalues[1], 0.5, 1e-12);

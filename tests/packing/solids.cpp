@@ -48,7 +48,7 @@ TriangleMesh bored_cube(int cells)
     auto grid = openvdb::FloatGrid::create(static_cast<float>(4 * voxel));
     grid->setTransform(transform);
     grid->setGridClass(openvdb::GRID_LEVEL_SET);
-    // The maximum of signed distances is the distance in the intersection, near enough for a surface.
+    // The maximum of signed distances is close enough, near the surface, to the distance of the intersection.
     const auto value = [](const V3d& p) {
         const double cube = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) - 1;
         const double bores =
@@ -61,7 +61,7 @@ TriangleMesh bored_cube(int cells)
     for (int i = -reach; i <= reach; ++i)
         for (int j = -reach; j <= reach; ++j)
             for (int k = -reach; k <= reach; ++k) {
-                // Half a voxel aside, so that no face of the cube runs through voxels' centres.
+                // Half a voxel aside, so that no face of the cube runs through centres of voxels.
                 const double d = value(V3d(i + 0.5, j + 0.5, k + 0.5) * voxel);
                 if (std::abs(d) < 4 * voxel) accessor.setValue({i, j, k}, static_cast<float>(d));
             }
@@ -71,7 +71,7 @@ TriangleMesh bored_cube(int cells)
     openvdb::tools::volumeToMesh(*grid, points, quads);
     TriangleMesh mesh;
     for (const auto& p : points) mesh.positions.emplace_back(p.x(), p.y(), p.z());
-    // OpenVDB's polygons go clockwise seen from outside.
+    // OpenVDB's polygons are clockwise when seen from outside.
     for (const auto& q : quads) {
         mesh.triangles.push_back({q[2], q[1], q[0]});
         mesh.triangles.push_back({q[3], q[2], q[0]});

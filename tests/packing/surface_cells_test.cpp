@@ -1,4 +1,4 @@
-// SurfaceCells against Domain, which other tests hold against exact arithmetic. The number of balls in each solid is
+// SurfaceCells against Domain, which other tests compare with exact arithmetic. The number of balls in each solid is
 // SCREE_SPHERES (environment) or 20,000.
 
 #include "packing/solids/surface_cells.h"
@@ -31,8 +31,8 @@ double number(uint64_t index, uint64_t stream, double lo = 0, double hi = 1)
     return lo + (hi - lo) * unit_double(hash_index(index, 9, stream));
 }
 
-/// A quarter anywhere in the bounds; the others near a triangle, some from its edges and corners, and a third of them
-/// with the radius that just fits, or up to two units in the last place from it.
+/// A quarter of the balls is anywhere in the bounds; the others start near a triangle, some on its edges and corners. A
+/// third of these has the radius that just fits, or one within two units in the last place of it.
 Ball random_ball(const Domain& domain, double largest, uint64_t k)
 {
     const Imath::Box3d& bounds = domain.bounds();
@@ -56,7 +56,7 @@ Ball random_ball(const Domain& domain, double largest, uint64_t k)
     return {centre, fits > 0 && fits <= largest ? fits : radius};
 }
 
-/// Returns how many of the balls the domain had to be asked about, but for those that just fit.
+/// Returns the number of balls that needed the domain's answer, minus the number of balls that just fit.
 int64_t compare(const TriangleMesh& mesh, double largest)
 {
     const Domain domain(mesh, "solid");
@@ -82,11 +82,11 @@ int64_t compare(const TriangleMesh& mesh, double largest)
 
 } // namespace
 
-// Where triangles are about as large as the cells, the domain is hardly ever asked.
+// If triangles are about as large as the cells, the domain is hardly ever asked.
 TEST(SurfaceCells, Sphere) { EXPECT_LE(compare(icosphere(5), 0.002), 0); }
 TEST(SurfaceCells, Torus) { compare(torus(1, 0.4, 120, 60), 0.003); }
 TEST(SurfaceCells, CoarseTorus) { compare(torus(1, 0.4, 12, 6), 0.01); }
-// Acute edges and corners, where neighbours' normals differ most.
+// Acute edges and corners, where normals of neighbours differ most.
 TEST(SurfaceCells, Box) { EXPECT_LE(compare(box_mesh({-1, -0.5, -0.125}, {1, 0.75, 2}), 0.01), 0); }
 TEST(SurfaceCells, Needle)
 {
@@ -102,7 +102,7 @@ TEST(SurfaceCells, PiecesThatTouch)
     compare(joined(cube, moved(cube, {4, 4, 0})), 0.01);
     compare(joined(cube, flipped(box_mesh(V3d(1), V3d(3)))), 0.01);
 }
-// Where the cells would hold too many triangles, or the balls are too large for any: the domain answers.
+// The domain answers if cells would hold too many triangles, or if the balls are too large for any cell.
 TEST(SurfaceCells, BallsThatAreLargeBesideTheTriangles) { compare(icosphere(6), 0.05); }
 TEST(SurfaceCells, BallsThatAreLargeBesideTheSolid) { compare(icosphere(3), 0.4); }
 
@@ -124,7 +124,7 @@ TEST(SurfaceCells, ScalingByPowersOfTwoChangesNothing)
         const double scale = std::ldexp(1.0, exponent);
         const Domain other(scaled(mesh, scale), "scaled torus");
         const SurfaceCells scaled_cells(other, largest * scale);
-        // Below the normal numbers scaled places are rounded.
+        // Below the normal numbers, scaled places are rounded.
         for (uint64_t k = 0; k < 3000; ++k) {
             const Ball ball = random_ball(domain, largest, k);
             const bool expected = exponent == -1030 ? other.contains_sphere(ball.centre * scale, ball.radius * scale)

@@ -31,7 +31,7 @@ class TileFile : public testing::Test {
 protected:
     std::string path() { return folder_.path("tile.vdb").string(); }
 
-    /// The error of reading grids made from the good tile's by `damage`.
+    /// The error of reading grids that are the good tile's grids changed by `damage`.
     std::string error_of(const std::function<void(std::vector<NamedPoints>&)>& damage)
     {
         std::vector<NamedPoints> grids;
@@ -59,7 +59,7 @@ TEST_F(TileFile, RoundTrip)
     for (size_t v = 0; v < 3; ++v) {
         for (uint64_t row = 0; row < tile.rows(); ++row)
             EXPECT_LT((back.variants[v][row] - tile.variants[v][row]).length(), 2.5e-7 * tile.mean_radius());
-        // The generator leaves room for the rounding: not even touching.
+        // The generator leaves room for the rounding, so the spheres do not even touch.
         EXPECT_LE(largest_tile_overlap(back, v).overlap, 0);
     }
 }
@@ -78,7 +78,7 @@ TEST_F(TileFile, PlainReadersFindTheFirstVariant)
 TEST_F(TileFile, APlainPeriodicPackingWillDo)
 {
     ParticleFrame frame = tile_frame(good_tile(), 0);
-    // Ids of its own, a corner that is not 0, some spheres outside of the cuboid.
+    // The frame has its own ids, a corner that is not 0, and some spheres outside the cuboid.
     for (size_t i = 0; i < frame.size(); ++i) {
         frame.id[i] = 1000 - 3 * i;
         frame.position[i] += Imath::V3d(100, 0, -7) + (i % 3 == 0 ? Imath::V3d(0, 1.5, 0) : Imath::V3d(0));
@@ -102,7 +102,7 @@ TEST_F(TileFile, OneVariantHasItsFacesInOrder)
     one.variants.resize(1);
     write_tile(one, path());
     EXPECT_LE(read_tile(path()).shared, one.shared);
-    EXPECT_GE(read_tile(path()).shared + 3, one.shared); // rows that nearly touch a face count while a tile is made
+    EXPECT_GE(read_tile(path()).shared + 3, one.shared); // the generator also counts rows that nearly touch a face
 }
 
 TEST_F(TileFile, DamageIsNamed)
@@ -126,8 +126,8 @@ TEST_F(TileFile, DamageIsNamed)
                     for (auto* all : {&g[2].frame.position}) all->pop_back();
                     g[2].frame.radius.pop_back(), g[2].frame.type.pop_back(), g[2].frame.id.pop_back();
                 }),
-                HasSubstr("299 spheres beside 300"));
-    // Dilated by a rounding error a thousand times that of the file: above 1e-6 of a radius.
+                HasSubstr("299 spheres, but 300"));
+    // Places and box are scaled by 0.8 but radii are not: overlaps are above 1e-6 of a radius.
     EXPECT_THAT(error_of([](auto& g) {
                     for (auto& grid : g)
                         for (Imath::V3d& p : grid.frame.position) p *= 0.8;
@@ -139,11 +139,11 @@ TEST_F(TileFile, DamageIsNamed)
 
 TEST_F(TileFile, AShiftedVariantDoesNotFit)
 {
-    // All spheres of a variant moved together: a valid packing alone, but not beside the others.
+    // All spheres of one variant are moved together: a valid packing on its own, but it does not fit beside the others.
     const std::string error = error_of([](auto& g) {
         for (Imath::V3d& p : g[1].frame.position) p += Imath::V3d(0.21, 0, 0);
     });
-    EXPECT_THAT(error, HasSubstr("reaches through a face but has not the same place in every variant"));
+    EXPECT_THAT(error, HasSubstr("reaches through a face, but its place differs between variants"));
 }
 
 TEST_F(TileFile, NoPointsAtAll)

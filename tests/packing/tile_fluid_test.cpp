@@ -38,8 +38,8 @@ uint64_t pairs_within(const PackingTile& tile, size_t variant, double x)
     return pairs;
 }
 
-/// Pairs within 1.05 diameters over those of the theory: Carnahan-Starling at contact, falling off as Percus-Yevick
-/// does. first, last: the variants asked.
+/// The number of pairs within 1.05 diameters over that of the theory: Carnahan-Starling at contact, with the slope of
+/// Percus-Yevick. first, last: the variants that are counted.
 Estimate near_contact(double f, uint64_t count, int tiles, size_t first, size_t last)
 {
     constexpr int steps = 1000;
@@ -59,8 +59,8 @@ Estimate near_contact(double f, uint64_t count, int tiles, size_t first, size_t 
     return ratio;
 }
 
-// Carnahan-Starling is within 0.3 % of the exact fluid, and the slope by Percus-Yevick costs no more over 0.05
-// diameters.
+// Carnahan-Starling is within 0.3 % of the exact fluid, and over 0.05 diameters the slope of Percus-Yevick costs no
+// more.
 constexpr double theory_error = 0.006;
 
 TEST(TileFluid, EqualSpheresHaveTheContactValueOfCarnahanAndStarling)
@@ -73,7 +73,7 @@ TEST(TileFluid, EqualSpheresHaveTheContactValueOfCarnahanAndStarling)
     }
 }
 
-// Later variants are samples of the fluid as good as the first: given the boundary, in equilibrium.
+// Later variants sample the fluid as well as the first one: they are in equilibrium given the boundary.
 TEST(TileFluid, VariantsHaveItToo)
 {
     const Estimate ratio = near_contact(0.3, 1000, 6, 1, 3);
@@ -82,7 +82,7 @@ TEST(TileFluid, VariantsHaveItToo)
         << ratio.mean() << " +- " << ratio.standard_error();
 }
 
-// The value of the mixture's equation of state, by the pressure along free paths.
+// The contact value of the mixture's equation of state, from the pressure along free paths.
 TEST(TileFluid, MixturesHaveThatOfTheirEquationOfState)
 {
     Estimate ratio;
@@ -97,8 +97,8 @@ TEST(TileFluid, MixturesHaveThatOfTheirEquationOfState)
         << ratio.mean() << " +- " << ratio.standard_error();
 }
 
-// Parting random places leaves spheres in touch that had overlapped. A fluid has none of that pile: g is 1.03 at
-// contact and falls linearly (virial expansion: g = 1 + f (8 - 6 x + x^3 / 2) for x < 2).
+// Moving random places apart leaves spheres in contact that had overlapped. A fluid has no such excess: its g is 1.03
+// at contact and falls linearly (virial expansion: g = 1 + f (8 - 6 x + x^3 / 2) for x < 2).
 TEST(TileFluid, ADiluteTileHasNoPileAtContact)
 {
     const double f = 0.01;
@@ -119,8 +119,8 @@ TEST(TileFluid, ADiluteTileHasNoPileAtContact)
         piled += pairs_within(fluid(count, f, 1, seed, 0).tile, 0, 1.001);
         spread += pairs_within(fluid(count, f, 1, seed).tile, 0, 1.001);
     }
-    // 12 fluid tiles hold 2.9 pairs within 1.001 diameters, with standard deviation 1.7; without sweeps there are far
-    // more.
+    // 12 fluid tiles hold 2.9 pairs within 1.001 diameters, with a standard deviation of 1.7; tiles without sweeps hold
+    // far more.
     EXPECT_LT(static_cast<double>(spread), 2.9 + 4 * 1.7);
     EXPECT_GT(static_cast<double>(piled), 2.9 + 8 * 1.7);
 }

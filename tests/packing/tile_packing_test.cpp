@@ -74,21 +74,21 @@ TEST(TilePacking, OverlapsOfAnyKindAreFound)
     tile.size = {1, 1, 1};
     tile.radius = {0.2f, 0.1f, 0.01f};
     tile.variants = {{{0.1, 0.5, 0.5}, {0.85, 0.5, 0.5}, {0.5, 0.1, 0.1}}};
-    TileOverlap worst = largest_tile_overlap(tile, 0); // through a face: 0.25 apart
+    TileOverlap worst = largest_tile_overlap(tile, 0); // 0.25 apart, through a face
     EXPECT_NEAR(worst.overlap, 0.05 / 0.1, 1e-6);
     EXPECT_EQ(worst.rows[0], 0u);
     EXPECT_EQ(worst.rows[1], 1u);
-    tile.variants[0][2] = {0.1, 0.6, 0.5}; // inside another
+    tile.variants[0][2] = {0.1, 0.6, 0.5}; // inside another sphere
     worst = largest_tile_overlap(tile, 0);
     EXPECT_NEAR(worst.overlap, (0.21 - 0.1) / 0.01, 1e-4);
     EXPECT_EQ(worst.rows[1], 2u);
-    tile.radius = {0.6f, 0.001f, 0.001f}; // its own image
+    tile.radius = {0.6f, 0.001f, 0.001f}; // overlaps its own image
     EXPECT_NEAR(largest_tile_overlap(tile, 0).overlap, 601 - std::sqrt(0.01) * 1000, 600);
 }
 
 TEST(TilePacking, TheFractionIsTheOneAskedFor)
 {
-    // Radii are floats, rounded down: relative 2^-23 each.
+    // Radii are floats, rounded down: a relative error of 2^-23 each.
     for (const double f : {0.01, 0.3, 0.55, 0.62})
         for (const auto& words : {std::vector<std::string>{"mono"}, {"power", "ratio=8"}})
             EXPECT_NEAR(tile_of(words, 400, f).tile.fraction() / f, 1, 3 * 0x1p-23) << f;
@@ -109,7 +109,7 @@ TEST(TilePacking, TheSameSeedTheSameTileOnAnyNumberOfThreads)
     }
 }
 
-// Everything is relative: the cuboid times a power of two gives the same tile times it.
+// All lengths are relative: the cuboid times a power of two gives the same tile times it.
 TEST(TilePacking, ScaleDoesNotMatter)
 {
     for (const std::optional<double> fraction : {std::optional<double>(), std::optional<double>(0.3)}) {
@@ -123,9 +123,9 @@ TEST(TilePacking, ScaleDoesNotMatter)
     }
 }
 
-// Jammed packings of equal frictionless spheres: f about 0.64, 6 contacts a sphere without rattlers (O'Hern et al.
-// 2003: phi_J = 0.639 for many spheres; compressed more slowly, up to 0.65), no crystal. Jammed means isostatic: Nc = 3
-// N' - 3, z = 6 - 6 / N'.
+// Jammed packings of equal frictionless spheres: f is about 0.64, with 6 contacts per sphere without rattlers (O'Hern
+// et al. 2003: phi_J = 0.639 for many spheres; up to 0.65 if compressed more slowly), and no crystal. Jammed means
+// isostatic: Nc = 3 N' - 3, z = 6 - 6 / N'.
 TEST(TilePacking, EqualSpheresJamAtRandomClosePacking)
 {
     const MadeTile made = tile_of({"mono"}, 2000, std::nullopt);
@@ -133,12 +133,12 @@ TEST(TilePacking, EqualSpheresJamAtRandomClosePacking)
     EXPECT_LT(made.tile.fraction(), 0.652);
     const PackedSpheres packed(tile_frame(made.tile, 0), "tile");
     const NearPairs pairs = measure_near_pairs(packed);
-    // Gaps up to the tolerance of 1e-3 count as contacts, some 0.2 of them a sphere.
+    // Gaps up to the tolerance of 1e-3 count as contacts; they are some 0.2 per sphere.
     EXPECT_NEAR(pairs.mean_contacts_without_rattlers, 6.1, 0.25);
     EXPECT_LT(pairs.rattlers, 0.06 * 2000);
     const BondOrder order = measure_bond_order(packed, 2000 / packed.volume());
     EXPECT_LT(order.crystal_fraction, 0.1);
-    EXPECT_LT(order.global_q6, 0.1); // fcc has 0.575: a crystal of a fifth of the spheres would be seen
+    EXPECT_LT(order.global_q6, 0.1); // fcc has 0.575, so a crystal of a fifth of the spheres would show
 }
 
 TEST(TilePacking, MixturesReachWhatTheLiteratureGives)
@@ -186,7 +186,7 @@ TEST(TilePacking, CanBeCancelled)
     EXPECT_THROW(make_tile(radii, {}, progress), Cancelled);
 }
 
-// The force of two soft spheres, alone: they move apart along their line until they touch.
+// Two soft spheres alone move apart along their line until they touch.
 TEST(TileRelaxation, TwoSpheresPartAlongTheirLine)
 {
     TileSpheres spheres;
@@ -201,14 +201,14 @@ TEST(TileRelaxation, TwoSpheresPartAlongTheirLine)
     EXPECT_GE(apart, 0.2 * (1 - 1e-6));
     EXPECT_LT(apart, 0.3);
     EXPECT_NEAR(places[0].y, 0.5, 1e-12);
-    EXPECT_NEAR(places[0].x + places[1].x, 1.06, 1e-9); // momentum
+    EXPECT_NEAR(places[0].x + places[1].x, 1.06, 1e-9); // momentum is conserved
 }
 
-// Compressed far beyond jamming, forces balance and the overlap stays.
+// Compressed far beyond jamming, the forces balance and the overlap remains.
 TEST(TileRelaxation, AFullCuboidBalances)
 {
     TileSpheres spheres;
-    spheres.radius.assign(8, 0.3); // an edge holds 2
+    spheres.radius.assign(8, 0.3); // with two spheres along an edge of 1, they overlap
     for (int i = 0; i < 8; ++i) spheres.place.push_back({0.01 + 0.5 * (i % 2), 0.5 * (i / 2 % 2), 0.5 * (i / 4)});
     TileRelaxation soft(spheres);
     EXPECT_EQ(soft.relax(1, {}, {}), TileRelaxation::Outcome::balanced);

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 TileSizes sizes(const std::vector<std::string>& words) { return parse_tile_sizes(words); }
 
-/// Radii over the smallest parameter of the distribution (its 1), sorted: undoes the scaling to mean 1 by the median.
+/// Sorted radii drawn from the distribution.
 std::vector<double> drawn(const TileSizes& kind, uint64_t count, uint64_t seed)
 {
     std::vector<double> radii = draw_tile_radii(kind, count, seed);
@@ -23,7 +23,7 @@ std::vector<double> drawn(const TileSizes& kind, uint64_t count, uint64_t seed)
     return radii;
 }
 
-/// Kolmogorov-Smirnov distance of sorted numbers from a distribution function.
+/// Kolmogorov-Smirnov distance between sorted numbers and a distribution function.
 template <class Cdf>
 double distance(const std::vector<double>& sorted, const Cdf& cdf)
 {
@@ -54,9 +54,9 @@ TEST(TileSizes, MeanIsOneAndOrderIsRandom)
     }
 }
 
-// A stratified sample has one radius in each n-th part of the distribution: its distance from it is at most 1/n. The
-// scaling to mean 1 of the sample shifts it further, by the error of the sample's mean, which stratification leaves far
-// below 1/sqrt(n).
+// A stratified sample has one radius in each n-th part of the distribution, so its distance from the distribution is at
+// most 1/n. Scaling the sample to mean 1 adds the error of the sample's mean, which stratification keeps far below
+// 1/sqrt(n).
 TEST(TileSizes, LognormalFollowsItsDistribution)
 {
     const std::vector<double> radii = drawn(sizes({"lognormal", "sigma=0.3"}), 10000, 1);
@@ -72,7 +72,7 @@ TEST(TileSizes, PowerLawFollowsItsDistribution)
         const std::vector<double> radii =
             drawn(sizes({"power", "exponent=" + std::to_string(exponent), "ratio=20"}), 10000, 1);
         const double k = 1 - exponent, most = std::pow(20.0, k);
-        const auto moment = [&](double power) { // of r^power over 1..20
+        const auto moment = [&](double power) { // mean of r^power over 1..20
             const double e = power - exponent + 1;
             return std::abs(e) < 1e-9 ? std::log(20.0) : (std::pow(20.0, e) - 1) / e;
         };
@@ -115,7 +115,7 @@ TEST(TileSizes, SeedsDecide)
     EXPECT_NE(draw_tile_radii(kind, 100, 5), draw_tile_radii(kind, 100, 6));
 }
 
-// Desmond and Weeks with the lognormal's own polydispersity 0.3069 and skewness 0.9495.
+// Desmond and Weeks, with the lognormal's own polydispersity 0.3069 and skewness 0.9495.
 TEST(TileSizes, RandomClosePackingOfTheLiterature)
 {
     EXPECT_NEAR(random_close_packing(draw_tile_radii(sizes({"mono"}), 100, 1)), 0.634, 1e-12);

@@ -34,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, TileVariants,
                                          Named{"wide", {"power", "ratio=6"}, 0.55}),
                          [](const auto& one) { return one.param.name; });
 
-// 2 x 2 x 2 cells with a variant each, and the same again around them: brute force over all spheres of the block.
+// 2 x 2 x 2 cells with a variant each, repeated around them: tests all pairs of spheres of the block.
 TEST_P(TileVariants, AnyVariantFitsBesideAnyOther)
 {
     const PackingTile tile = tile_of(GetParam().sizes, 250, GetParam().fraction, 3).tile;
@@ -80,9 +80,8 @@ TEST_P(TileVariants, SharedRowsAreAllThatReachThroughFaces)
         }
 }
 
-/// How many centres of variant a that are at least `shallow` from the faces have a centre of variant b within 0.2
-/// radii, over the number of the former. Of independent packings of equal spheres 0.008 f of them have: the number
-/// density times the volume of the ball.
+/// The share of centres of variant a, at least `shallow` from the faces, that have a centre of variant b within 0.2
+/// radii. For independent packings of equal spheres it is 0.008 f: the number density times the volume of the ball.
 double coincidences(const PackingTile& tile, size_t a, size_t b, double shallow)
 {
     const auto &first = tile.variants[a], &second = tile.variants[b];
@@ -100,7 +99,7 @@ double coincidences(const PackingTile& tile, size_t a, size_t b, double shallow)
 
 TEST_P(TileVariants, InsidesDiffer)
 {
-    if (!GetParam().fraction) return; // jammed ones need a larger tile: see TileVariantsOfJammed
+    if (!GetParam().fraction) return; // jammed tiles must be larger: see TileVariantsOfJammed
     const PackingTile tile = tile_of(GetParam().sizes, 600, GetParam().fraction, 3).tile;
     for (const auto& [a, b] : {std::pair<size_t, size_t>{0, 1}, {0, 2}, {1, 2}}) {
         EXPECT_LT(coincidences(tile, a, b, 0), 0.1);
@@ -108,13 +107,13 @@ TEST_P(TileVariants, InsidesDiffer)
         for (uint64_t row = tile.shared; row < tile.rows(); ++row)
             mean += (tile.variants[a][row] - tile.variants[b][row]).length() /
                     static_cast<double>(tile.rows() - tile.shared);
-        // Uniform places in a cuboid of about unit edges are 0.66 apart on average.
+        // Independent uniform places in a cuboid of about unit edges are 0.66 apart on average.
         EXPECT_GT(mean, 4 * tile.mean_radius());
     }
 }
 
-// Jammed spheres within two diameters of the faces lie much as the boundary makes them, in every variant; deeper ones
-// do not.
+// Within two diameters of the faces, the boundary decides where jammed spheres lie, in every variant; deeper spheres
+// differ.
 TEST(TileVariantsOfJammed, DifferDeepInside)
 {
     const PackingTile tile = tile_of({"mono"}, 1800, std::nullopt, 2).tile;

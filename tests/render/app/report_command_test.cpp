@@ -52,7 +52,7 @@ protected:
         return testing::internal::GetCapturedStdout();
     }
 
-    /// A LAMMPS dump of the frame; non-periodic without box.
+    /// A LAMMPS dump of the frame; not periodic if the frame has no box.
     std::string dump(const std::string& name, const ParticleFrame& frame,
                      const std::string& boundary = "pp pp pp") const
     {
@@ -91,7 +91,7 @@ TEST_F(ReportCommand, HtmlIsWellFormedAndSelfContained)
     const std::string page = test::read_bytes(html);
     Tree tree;
     std::istringstream stream(page);
-    boost::property_tree::read_xml(stream, tree); // throws where a tag is not closed
+    boost::property_tree::read_xml(stream, tree); // throws if a tag is not closed
     EXPECT_EQ(count_tags(tree, "svg"), 2 * count_tags(tree, "figure"));
     EXPECT_GE(count_tags(tree, "figure"), 9u);
     EXPECT_EQ(count_tags(tree, "script"), 0u);
@@ -143,8 +143,8 @@ TEST_F(ReportCommand, InAMesh)
 {
     ParticleFrame frame = test::scaled(test::lattice("sc", 10, 0.495f), 0.2);
     for (Imath::V3d& p : frame.position) p -= Imath::V3d(0.9);
-    frame.position[17].x += 0.05; // into its neighbour, not out
-    frame.position[9].x = 0.95; // 0.049 out of the cube
+    frame.position[17].x += 0.05; // overlaps its neighbour, but stays in the cube
+    frame.position[9].x = 0.95; // sticks out of the cube by 0.049
     const std::string mesh = folder_.write("cube.off", cube_off);
     const json j = report({dump("grid.dump", frame), "--mesh", mesh});
     EXPECT_EQ(verdict(j, "containment"), "FAIL");
@@ -187,7 +187,7 @@ TEST_F(ReportCommand, RadiiThatAreNoneOrWrong)
     const json j = report({dump("most.dump", frame)});
     EXPECT_EQ(j["spheres"], 1);
     EXPECT_THAT(j["notes"].dump(), HasSubstr("26 spheres of radius 0"));
-    // A hundred times too large: told, and not for ever at it.
+    // Radii a hundred times too large: reported, and in reasonable time.
     for (float& r : frame.radius) r = 50;
     EXPECT_THROW(run({dump("huge.dump", frame)}), InputError);
     const json alone = report({dump("alone.dump", frame, "ff ff ff")});

@@ -42,7 +42,7 @@ protected:
     }
     std::string path(const std::string& name) { return folder_.path(name).string(); }
 
-    /// A dump of an n^3 lattice of spheres of radius `radius` at spacing 1, with two types.
+    /// A dump of an n^3 lattice at spacing 1, of spheres of radius `radius` and two types.
     std::string lattice(int n, double radius, const std::string& bounds = "pp pp pp")
     {
         std::string text =
@@ -92,7 +92,7 @@ TEST_F(TileCommand, TellsWhatItMade)
 
 TEST_F(TileCommand, CutsATileOutOfASimulation)
 {
-    // Radius 0.4: nothing overlaps by more than it may, and spheres stay where they are.
+    // With radius 0.4 no overlap is above the allowed one, so spheres stay in place.
     const std::string text = run({"-o", path("a.vdb"), "--from", lattice(6, 0.4), "--variants", "2", "--sweeps", "20"});
     EXPECT_THAT(text, HasSubstr("every sphere is where the dump has it"));
     const PackingTile tile = read_tile(path("a.vdb"));
@@ -104,7 +104,7 @@ TEST_F(TileCommand, CutsATileOutOfASimulation)
 
 TEST_F(TileCommand, PartsTheOverlapsOfASimulation)
 {
-    // Radius 0.5 at spacing 1, displaced by up to 0.2: pairs overlap by tens of per cent, and 0.52 of the volume fits.
+    // Radius 0.5 at spacing 1, displaced by up to 0.2: pairs overlap by tens of per cent, and a fraction of 0.52 fits.
     const std::string text = run({"-o", path("a.vdb"), "--from", lattice(6, 0.5), "--variants", "2"});
     EXPECT_THAT(text, HasSubstr("the dump's spheres overlapped: they were moved by"));
     EXPECT_THAT(text, HasSubstr("radii are "));
@@ -126,7 +126,7 @@ TEST_F(TileCommand, OnlyPeriodicCuboidsCanBeCut)
                 HasSubstr("--region"));
     EXPECT_THAT(error({"-o", path("a.vdb"), "--from", lattice(4, 0.4), "--region", "50,60,0,10,0,10"}),
                 HasSubstr("no particle in the region"));
-    EXPECT_THAT(error({"-o", path("a.vdb"), "--from", lattice(4, 3)}), HasSubstr("1.5 of the largest diameter"));
+    EXPECT_THAT(error({"-o", path("a.vdb"), "--from", lattice(4, 3)}), HasSubstr("1.5 times the largest diameter"));
 }
 
 TEST_F(TileCommand, DrawsRadiiFromADump)
