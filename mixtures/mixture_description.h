@@ -17,11 +17,13 @@ struct MixtureDescription;
 
 /// One grain type for all spheres: {"kind": "single", "type": T}, or just "T".
 struct SingleDescription {
+    static constexpr const char* name = "single";
     std::string type;
 };
 
 /// Each sphere's own type number, from its dump or from a table on disk.
 struct ExplicitDescription {
+    static constexpr const char* name = "explicit";
     std::map<std::string, std::string> types; ///< number (or word) there -> grain type; empty: the assembly's map
     std::filesystem::path table; ///< .csv (also packed) or .vdb; empty: the dump itself
     std::string column = "type"; ///< the table's column (or attribute) of types
@@ -32,6 +34,7 @@ enum class RandomBy { number, volume };
 inline const EnumNames<RandomBy> random_by_names{{RandomBy::number, "number"}, {RandomBy::volume, "volume"}};
 
 struct RandomDescription {
+    static constexpr const char* name = "random";
     std::vector<std::string> types;
     std::vector<double> weights; ///< as many as types, not below 0, one above 0
     RandomBy by = RandomBy::number;
@@ -39,6 +42,7 @@ struct RandomDescription {
 };
 
 struct PerlinDescription {
+    static constexpr const char* name = "perlin";
     std::vector<std::string> types;
     NoiseOptions noise;
     /// threshold: ascending, one fewer than types; if empty, `fraction` is used and has as many entries as types.
@@ -46,11 +50,13 @@ struct PerlinDescription {
 };
 
 struct CheckerboardDescription {
+    static constexpr const char* name = "checkerboard";
     std::vector<std::string> types;
     CheckerboardMixture::Board board;
 };
 
 struct LayersDescription {
+    static constexpr const char* name = "layers";
     std::vector<std::string> types;
     std::vector<double> thicknesses; ///< as many as types
     Imath::V3d direction{0, 0, 1};
@@ -62,11 +68,13 @@ struct LayersDescription {
 
 /// types[k] is for radii below thresholds[k] (ascending, one fewer than types) and not below thresholds[k - 1].
 struct RadiusDescription {
+    static constexpr const char* name = "radius";
     std::vector<std::string> types;
     std::vector<double> thresholds;
 };
 
 struct GridDescription {
+    static constexpr const char* name = "grid";
     struct Field {
         std::string type;
         std::filesystem::path file;
@@ -79,6 +87,7 @@ struct GridDescription {
 
 /// `by` (one entry) chooses one of the mixtures by its name.
 struct BlendDescription {
+    static constexpr const char* name = "blend";
     std::vector<std::string> names; ///< sorted
     std::vector<MixtureDescription> mixtures;
     std::vector<MixtureDescription> by;
@@ -100,9 +109,12 @@ struct MixtureDescription {
     std::string place; ///< "file: /json/path", for messages
 };
 
-/// The kinds' names, in the order of the variant.
-inline const std::vector<std::string> mixture_kinds{"single", "explicit", "random", "perlin", "checkerboard",
-                                                    "layers", "radius",   "grid",   "blend"};
+/// The names of all kinds, as a mixture's JSON has them.
+inline const std::vector<std::string> mixture_kinds = [] {
+    return []<class... Kinds>(const std::variant<Kinds...>*) {
+        return std::vector<std::string>{Kinds::name...};
+    }(static_cast<const decltype(MixtureDescription::kind)*>(nullptr));
+}();
 
 /// The grain types that the mixture names, in order, each once; `chosen_only`: without types that are never chosen
 /// (weight or fraction 0). An explicit mixture without its own map adds none.

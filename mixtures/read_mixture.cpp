@@ -281,17 +281,16 @@ MixtureDescription read_any(const JsonValue& json, const Scope& scope)
         return mixture;
     }
     read_decision(object, scope, mixture.decided);
-    switch (object.require("kind").choice(mixture_kinds)) {
-    case 0: mixture.kind = SingleDescription{read_type(object.require("type"), scope)}; break;
-    case 1: mixture.kind = read_explicit(object, scope); break;
-    case 2: mixture.kind = read_random(object, scope); break;
-    case 3: mixture.kind = read_perlin(object, scope); break;
-    case 4: mixture.kind = read_checkerboard(object, scope); break;
-    case 5: mixture.kind = read_layers(object, scope); break;
-    case 6: mixture.kind = read_radius(object, scope); break;
-    case 7: mixture.kind = read_grid(object, scope); break;
-    default: mixture.kind = read_blend(object, scope); break;
-    }
+    const std::string& kind = mixture_kinds[object.require("kind").choice(mixture_kinds)];
+    if (kind == SingleDescription::name) mixture.kind = SingleDescription{read_type(object.require("type"), scope)};
+    if (kind == ExplicitDescription::name) mixture.kind = read_explicit(object, scope);
+    if (kind == RandomDescription::name) mixture.kind = read_random(object, scope);
+    if (kind == PerlinDescription::name) mixture.kind = read_perlin(object, scope);
+    if (kind == CheckerboardDescription::name) mixture.kind = read_checkerboard(object, scope);
+    if (kind == LayersDescription::name) mixture.kind = read_layers(object, scope);
+    if (kind == RadiusDescription::name) mixture.kind = read_radius(object, scope);
+    if (kind == GridDescription::name) mixture.kind = read_grid(object, scope);
+    if (kind == BlendDescription::name) mixture.kind = read_blend(object, scope);
     object.done();
     return mixture;
 }

@@ -118,7 +118,7 @@ struct Writer {
 ordered_json write_mixture(const MixtureDescription& mixture, const std::filesystem::path& folder)
 {
     ordered_json json;
-    json["kind"] = mixture_kinds[mixture.kind.index()];
+    json["kind"] = std::visit([](const auto& kind) { return kind.name; }, mixture.kind);
     std::visit(Writer{json, folder}, mixture.kind);
     if (mixture.decided.each)
         json["frame"] = "each";
