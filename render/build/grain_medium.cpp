@@ -256,10 +256,11 @@ void report_no_core(double below, const PackingSample& sample, const GrainDepth&
                     std::vector<PartReport>& parts, std::vector<std::string>& remarks)
 {
     parts.push_back({part, false,
-                     depth.all ? "no grain is deeper than a radius"
+                     depth.all ? "no grain lies deeper than one radius"
                                : fmt::format("no place is {:.3g} mean radii deep", below / sample.mean_radius()),
                      seconds});
-    if (depth.all) remarks.push_back("no place is deeper among the grains than one of them: the picture lacks them");
+    if (depth.all)
+        remarks.push_back("no place among the grains is deeper than one radius: the picture shows no grains");
 }
 
 /// core: as deep as the medium begins at least. Returns from how many mean radii on it stands for grains, if anywhere.
@@ -279,8 +280,8 @@ std::optional<double> replace_grains(const GrainMedium& medium, const GrainDepth
         MediumRegion region;
         region.name = part;
         region.instead_of_grains = true;
-        std::string how =
-            fmt::format("{:.3g} mean radii deep, below {} triangles, ", below / radius, surface->triangles.size());
+        std::string how = fmt::format("from {:.3g} mean radii below every face, inside {} triangles, ", below / radius,
+                                      surface->triangles.size());
         uint64_t bytes =
             surface->triangles.size() * sizeof(surface->triangles[0]) + surface->positions.size() * sizeof(V3f);
         if (!world.fill)
@@ -299,7 +300,7 @@ std::optional<double> replace_grains(const GrainMedium& medium, const GrainDepth
                          watch.seconds(), bytes});
         if (surface->coarsened)
             remarks.push_back(
-                "the surface of the medium that stands for the grains is coarse: it would have too many voxels");
+                "the surface of the medium that replaces the grains is coarse: a finer one would need too many voxels");
         if (!medium.medium.doubt.empty()) remarks.push_back("the medium of the grains: " + medium.medium.doubt);
     } else {
         report_no_core(below, medium.sample, depth, watch.seconds(), parts, remarks);
@@ -337,7 +338,7 @@ std::optional<double> replace_grains(EquivalentForm form, const GrainDepth& dept
     const double below = least_depth(sample, depth);
     Core core{below, surface_below(world, below, progress)};
     if (core.is_empty()) {
-        parts.push_back({walk, false, "no medium follows from it"});
+        parts.push_back({walk, false, "no medium is made from it"});
         report_no_core(below, sample, depth, core_watch.seconds(), parts, remarks);
         if (depth.all) take_all_grains(world);
         return std::nullopt;

@@ -36,7 +36,8 @@ void warn_if_too_dense(const MediumDescription& medium, const Imath::Box3d& boun
     const double size = bounds.size().length(), sigma_t = max_component(medium.sigma_t) * unit;
     if (!(sigma_t * size * least > 1)) return;
     warnings.push_back(fmt::format(
-        "the mean free path of '{}' is {:.2g} of its size: places cannot tell so small a way, and it looks too bright",
+        "the mean free path of '{}' is {:.2g} of its size: coordinates cannot resolve such a short distance, and the "
+        "medium looks too bright",
         name_of(medium), 1 / (sigma_t * size)));
 }
 
@@ -56,9 +57,10 @@ void MediumBuilder::refuse_overlaps(const World& world) const
             if (a.is_achromatic() || b.is_achromatic() || !overlap) continue;
             throw InputError(
                 scene_.file.string() + ": /medium",
-                fmt::format("'{}' and '{}', of both of which the extinction depends on the channel, within one box",
-                            a.name, b.name),
-                "media apart from each other, or one of them with the same extinction in all channels");
+                fmt::format(
+                    "the boxes of '{}' and '{}' overlap, and in both media the extinction depends on the channel",
+                    a.name, b.name),
+                "media whose boxes do not overlap, or one of them with the same extinction in all channels");
         }
     }
 }

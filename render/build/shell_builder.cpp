@@ -96,7 +96,7 @@ void add_shells(const ShellChoice& choice, StfCache& cache, World& world, std::v
         const std::string part = "shells of '" + region.name + "'";
         const auto skip = [&](const std::string& why) { parts.push_back({part, false, why}); };
         if (!world.clearance) {
-            skip("grains, or a spherical light, may be met in it");
+            skip("grains or a sphere light may lie inside a medium");
             continue;
         }
         if (!region.is_achromatic()) {
@@ -127,7 +127,7 @@ void add_shells(const ShellChoice& choice, StfCache& cache, World& world, std::v
             std::min(0.5 * std::min({box.size().x, box.size().y, box.size().z}), world.clearance->largest()));
         if (count == 0 || Stf::radius(count - 1) < choice.least) {
             skip(count == 0 ? "none fits: no place is a mean free path away from all faces"
-                            : fmt::format("the largest has {:.3g} mean free paths, of use are {:g} and more",
+                            : fmt::format("the largest that fits has {:.3g} mean free paths; at least {:g} are needed",
                                           Stf::radius(count - 1), choice.least));
             continue;
         }
@@ -136,16 +136,16 @@ void add_shells(const ShellChoice& choice, StfCache& cache, World& world, std::v
             const ShellForecast walks =
                 forecast_shells(*region.medium, *pyramid, box, *world.clearance, count, progress);
             const double work = walks.work(world.lights.any_sampled());
-            forecast = fmt::format("in place of {:.0f} % of the scatterings, {:.2g} each, for {:.0f} % of the work",
+            forecast = fmt::format("replace {:.0f} % of the scatterings, {:.2g} a shell, for {:.0f} % of the work",
                                    100 * walks.part(), walks.each(), 100 * work);
             if (!(work <= worthwhile_work)) {
                 parts.push_back(
                     {part, false,
-                     fmt::format("they would stand {}, of use are {:.0f} % and less", forecast, 100 * worthwhile_work),
+                     fmt::format("shells would {}; at most {:.0f} % is worthwhile", forecast, 100 * worthwhile_work),
                      watch.seconds()});
                 continue;
             }
-            forecast = "; " + forecast;
+            forecast = "; they " + forecast;
         }
         std::vector<std::shared_ptr<const Stf>> stfs;
         size_t computed = 0;

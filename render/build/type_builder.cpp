@@ -29,7 +29,7 @@ void TypeBuilder::add_exemplar(const GrainTypeDescription& type, Shape& shape, c
         return;
     }
     if (!context.plan.has_exemplars()) {
-        context.parts.push_back({part, false, "no grain is traced as it is"});
+        context.parts.push_back({part, false, "no grain is traced as explicit geometry"});
         return;
     }
     const Stopwatch watch;
@@ -43,7 +43,7 @@ void TypeBuilder::add_gsdf(const GrainTypeDescription& type, Shape& shape, const
 {
     const std::string part = "gsdf '" + type.name + "'";
     if (!context.plan.needs_gsdfs()) {
-        context.parts.push_back({part, false, "no grain is a proxy, and no medium stands for any"});
+        context.parts.push_back({part, false, "no grain is a proxy, and no medium replaces grains"});
         return;
     }
     const GsdfOptions options = gsdf_options(context.plan.accuracy);
@@ -56,7 +56,7 @@ void TypeBuilder::add_gsdf(const GrainTypeDescription& type, Shape& shape, const
     }
     const Stopwatch watch;
     std::shared_ptr<const Gsdf>& gsdf = gsdfs_[gsdf_key(source, options)]; // types that differ in colour only share one
-    std::string how = "made already, for another type or frame";
+    std::string how = "already made for another type or frame";
     if (!gsdf) {
         const bool now = context.precompute == Precompute::now;
         const FoundGsdf found = now ? find_gsdf(source, options, cache_folder(), context.progress)

@@ -262,20 +262,21 @@ private:
     {
         if (s.non_finite > 0) {
             const SamplePlace& p = *s.first_non_finite;
-            say(fmt::format("{} samples were not finite and are left out; the first again: --debug-sample {},{},{}",
-                            s.non_finite, p.x, p.y, p.sample));
+            say(fmt::format(
+                "{} samples were not finite and are left out; to trace the first again: --debug-sample {},{},{}",
+                s.non_finite, p.x, p.y, p.sample));
         }
         if (s.cancelled)
-            say(fmt::format("interrupted: the picture holds at least {} samples a pixel; go on with --resume", s.spp));
+            say(fmt::format("interrupted: the picture holds at least {} samples a pixel; continue with --resume",
+                            s.spp));
         else if (s.timed_out)
             say(fmt::format("stopped by --timeout at {} samples a pixel", s.spp));
         if (job_.options.error > 0 && !s.error_reached) {
             say("--error was not reached: " +
                 (s.error ? fmt::format("{:.3g}, in the worst tile {:.3g}", s.error->picture, s.error->worst_tile)
-                         : std::string("pixels have too few samples to tell it")));
+                         : std::string("pixels have too few samples to estimate it")));
         }
-        if (s.stopped > 0)
-            say(fmt::format("{} paths were still on their way when time ran out and are left out", s.stopped));
+        if (s.stopped > 0) say(fmt::format("{} paths were unfinished when time ran out and are left out", s.stopped));
         if (s.cut > 0)
             say(fmt::format("{} of {} paths were cut by the depth limit: the picture is too dark", s.cut, s.paths));
     }

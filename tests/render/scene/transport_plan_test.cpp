@@ -47,7 +47,7 @@ void expect_every_grain_as_it_is(const TransportPlan& plan)
     EXPECT_FALSE(plan.has_proxies());
     EXPECT_FALSE(plan.needs_gsdfs());
     EXPECT_FALSE(plan.has_grain_medium);
-    EXPECT_THAT(plan.why, HasSubstr("every grain as it is"));
+    EXPECT_THAT(plan.why, HasSubstr("every grain is traced as explicit geometry"));
     EXPECT_EQ(plan.why_no_medium, "the integrator traces grains everywhere");
 }
 
@@ -69,7 +69,7 @@ TEST_F(Plans, PptTakesProxies)
         EXPECT_FALSE(all.has_exemplars());
         EXPECT_TRUE(all.has_proxies() && all.needs_gsdfs());
         EXPECT_FALSE(all.has_grain_medium || all.has_shells);
-        EXPECT_EQ(all.why, "proxies stand for grains");
+        EXPECT_EQ(all.why, "proxies replace every grain");
         EXPECT_EQ(all.accuracy, accuracy);
         EXPECT_EQ(all.name(), "ppt");
     }
@@ -77,7 +77,7 @@ TEST_F(Plans, PptTakesProxies)
     const TransportPlan later = plan(IntegratorKind::ppt);
     EXPECT_TRUE(later.has_exemplars() && later.has_proxies());
     EXPECT_EQ(later.explicit_grains, 2u);
-    EXPECT_EQ(later.why, "proxies stand for all grains but the first 2 of a path");
+    EXPECT_EQ(later.why, "proxies replace all grains except the first 2 of a path");
 }
 
 TEST_F(Plans, VptAndStfTakeAMedium)
@@ -88,7 +88,7 @@ TEST_F(Plans, VptAndStfTakeAMedium)
             EXPECT_TRUE(all.replaces_all && all.has_grain_medium && all.needs_gsdfs());
             EXPECT_FALSE(all.has_exemplars() || all.has_proxies());
             EXPECT_EQ(all.has_shells, kind == IntegratorKind::stf);
-            EXPECT_EQ(all.why, "a medium stands for all grains");
+            EXPECT_EQ(all.why, "a medium replaces all grains");
             EXPECT_EQ(all.why_no_medium, "");
         }
         integrator.grain_depth = 4;
@@ -122,8 +122,8 @@ TEST_F(Plans, AutoGoesByAccuracy)
         EXPECT_EQ(made.why_no_medium, "");
         EXPECT_EQ(made.name(), "auto");
     }
-    EXPECT_EQ(automatic(Accuracy::standard).why, "proxies stand for all grains but the first of a path");
-    EXPECT_EQ(automatic(Accuracy::draft).why, "proxies stand for grains: the accuracy is that of a draft");
+    EXPECT_EQ(automatic(Accuracy::standard).why, "proxies replace all grains except the first of a path");
+    EXPECT_EQ(automatic(Accuracy::draft).why, "proxies replace every grain: the accuracy is draft");
 }
 
 TEST_F(Plans, AutoTracesFewGrainsAsTheyAre)
@@ -142,7 +142,7 @@ TEST_F(Plans, AutoTracesAbsorbingGrainsAsTheyAre)
 {
     facts.loss = 0.07; // 3.8 encounters
     expect_every_grain_as_it_is(automatic());
-    EXPECT_THAT(automatic().why, HasSubstr("light meets some 3.8 of them"));
+    EXPECT_THAT(automatic().why, HasSubstr("light hits about 3.8 grains"));
     facts.loss = 0.06;
     EXPECT_TRUE(automatic().has_proxies());
     facts.loss = 0;
@@ -156,7 +156,7 @@ TEST_F(Plans, AutoTakesProxiesForGrainsThatAreNotResolved)
     const TransportPlan far = automatic();
     EXPECT_EQ(far.explicit_grains, 0u);
     EXPECT_FALSE(far.has_exemplars());
-    EXPECT_THAT(far.why, HasSubstr("the largest looks 0.16 pixels wide"));
+    EXPECT_THAT(far.why, HasSubstr("the largest looks only 0.16 pixels wide"));
     EXPECT_FALSE(automatic(Accuracy::high).has_exemplars());
     camera.origin = {0, -7000, 0}; // 0.68 pixels: enough for a standard's 1, but not for the 0.5 of a high accuracy
     EXPECT_FALSE(automatic().has_exemplars());
@@ -178,7 +178,7 @@ TEST_F(Plans, AutoTakesNoMediumInThinBeds)
     facts.bounds.min.z = -5.9; // on each side of the middle: 1.5 depths of 4 radii are 6
     facts.bounds.max.z = 5.9;
     EXPECT_FALSE(automatic().has_grain_medium);
-    EXPECT_EQ(automatic().why_no_medium, "hardly a grain is 4 mean radii deep");
+    EXPECT_EQ(automatic().why_no_medium, "few grains lie 4 mean radii deep");
     EXPECT_TRUE(automatic().has_proxies() && automatic().needs_gsdfs());
     EXPECT_TRUE(automatic(Accuracy::draft).has_grain_medium);
     facts.bounds.max.z = 6.2;
@@ -189,7 +189,7 @@ TEST_F(Plans, TheUserHasTheLastWord)
 {
     integrator.explicit_grains = 5;
     EXPECT_EQ(automatic().explicit_grains, 5u);
-    EXPECT_EQ(automatic().why, "proxies stand for all grains but the first 5 of a path, as asked for");
+    EXPECT_EQ(automatic().why, "proxies replace all grains except the first 5 of a path, as asked for");
     camera.origin = {0, -30000, 0};
     EXPECT_TRUE(automatic().has_exemplars());
     EXPECT_EQ(automatic().least_pixels, 0) << "as they are, however small";
@@ -199,7 +199,7 @@ TEST_F(Plans, TheUserHasTheLastWord)
     EXPECT_EQ(automatic().why_no_medium, "the integrator traces grains everywhere");
     EXPECT_TRUE(automatic(Accuracy::reference).has_proxies());
     integrator.explicit_grains = 0;
-    EXPECT_EQ(automatic().why, "proxies stand for grains, as asked for");
+    EXPECT_EQ(automatic().why, "proxies replace every grain, as asked for");
     EXPECT_FALSE(automatic().has_exemplars());
     integrator = {};
 
