@@ -17,8 +17,7 @@ constexpr const char* distances = "distances within media";
 constexpr const char* unknown = "grains or a sphere light may lie inside a medium";
 constexpr const char* stepwise = "light in media is traced from scattering to scattering";
 
-/// An upper bound, by the media's boxes, on the radius of a shell in mean free paths; infinite with a medium that
-/// varies.
+/// An upper bound on the radius of a shell in mean free paths, from the media's boxes; infinite if a medium varies.
 double largest_shell(const World& world)
 {
     double largest = 0;
@@ -57,7 +56,7 @@ std::optional<double> make_planned_medium(const BuildContext& context, World& wo
     return replace_grains(plan.medium_form, depth, world, context.parts, context.warnings, context.progress);
 }
 
-/// What make() would do, as far as it is known.
+/// Reports what make() would do, as far as this is known without building.
 void PlannedShells::say(const BuildContext& context, const MediumBuilder& media, const World& world) const
 {
     const TransportPlan& plan = context.plan;
@@ -70,7 +69,7 @@ void PlannedShells::say(const BuildContext& context, const MediumBuilder& media,
     if (!plan.has_shells) return skip("shells", stepwise);
     if (!known) return skip("shells", unknown);
     const double least = std::max(1.0, plan.least_shell);
-    const bool all_read = !plan.has_grain_medium && world.regions.size() == media.count(); // grids are not, for a plan
+    const bool all_read = !plan.has_grain_medium && world.regions.size() == media.count(); // a plan does not read grids
     if (all_read && std::ranges::none_of(world.regions, &MediumRegion::is_achromatic))
         return skip("shells", "the extinction of every medium depends on the channel");
     if (const double largest = largest_shell(world); all_read && largest < least) {

@@ -55,7 +55,7 @@ void TypeBuilder::add_gsdf(const GrainTypeDescription& type, Shape& shape, const
         };
     }
     const Stopwatch watch;
-    std::shared_ptr<const Gsdf>& gsdf = gsdfs_[gsdf_key(source, options)]; // types that differ in colour only share one
+    std::shared_ptr<const Gsdf>& gsdf = gsdfs_[gsdf_key(source, options)]; // types that differ only in colour share one
     std::string how = "already made for another type or frame";
     if (!gsdf) {
         const bool now = context.precompute == Precompute::now;
@@ -85,7 +85,7 @@ uint64_t TypeBuilder::build(const std::vector<GrainTypeDescription>& types, cons
     for (size_t i = 0; i < types.size(); ++i) {
         const GrainTypeDescription& type = types[i];
         GrainType made{type.name, {}, nullptr};
-        if (!used[i]) { // nor is anything made because its material would need it
+        if (!used[i]) { // its material stays the default, so that nothing is built for it
             for (const char* part : {"exemplar", "gsdf"})
                 context.parts.push_back({fmt::format("{} '{}'", part, type.name), false, "no grain has this type"});
         } else {
@@ -99,7 +99,7 @@ uint64_t TypeBuilder::build(const std::vector<GrainTypeDescription>& types, cons
             if (context.plan.has_exemplars())
                 made.exemplar = shape.exemplar;
             else
-                shape.exemplar = nullptr; // was only needed to trace the GSDF
+                shape.exemplar = nullptr; // it was only needed to trace the GSDF
             made.gsdf = shape.gsdf;
             hash = mix64(hash ^ shape.hash);
         }

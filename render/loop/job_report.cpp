@@ -54,7 +54,7 @@ std::vector<PartReport> all_parts(const SceneDescription& scene, const BuiltFram
                                   {"proxies", plan.has_proxies(), plan.has_proxies() ? why_proxies : why_none}};
     parts.insert(parts.end(), built.parts.begin(), built.parts.end());
 
-    if (is_cropped) { // a grain out of sight shades those in sight and lights them, so a list keeps it
+    if (is_cropped) { // grains outside the crop shade and light those inside, so a list keeps them
         const std::string part = "grains outside the crop";
         if (!plan.has_grains || plan.replaces_all)
             parts.push_back({part, false, plan.why});
@@ -63,7 +63,7 @@ std::vector<PartReport> all_parts(const SceneDescription& scene, const BuiltFram
         else
             parts.push_back({part, true, "kept: they may scatter light into the crop"});
     }
-    // As the tracer has it; where a medium is to stand for all grains they may be there still.
+    // The same condition as in the tracer; grains that a medium is to replace may still be in the world.
     const bool enters = plan.needs_gsdfs() || std::ranges::any_of(world.types, [](const GrainType& type) {
                             return type.material.transmits();
                         });

@@ -23,7 +23,7 @@ namespace {
 
 constexpr int interrupted_status = 130;
 
-/// The name of a frame's picture: %d and %04d take the frame number; several frames without one get ".0007".
+/// The name of a frame's picture: %d and %04d become the frame number; without them, several frames get ".0007".
 std::string frame_path(const std::string& output, size_t frame, bool many)
 {
     const size_t percent = output.find('%');
@@ -41,7 +41,7 @@ std::string frame_path(const std::string& output, size_t frame, bool many)
     return path.replace_extension().string() + fmt::format(".{:04}", frame) + extension;
 }
 
-/// The pixels a crop keeps: those whose middle lies in it, so that abutting crops share none.
+/// A film of the pixels whose middle lies in the crop, so that adjacent crops share no pixel.
 Film make_film(const RenderJob& job, const FilmDescription& film)
 {
     const int w = film.width, h = film.height;
@@ -103,7 +103,7 @@ PictureMetadata make_metadata(const RenderJob& job, const BuiltFrame& built, con
     const Imath::M44d to_render(scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, scale, 0, -o.x * scale, -o.y * scale,
                                 -o.z * scale, 1);
     const double back = world.space.world_length(1);
-    // Camera space is in the scene's unit again; NDC has none.
+    // Camera space is in the scene's unit again; NDC has no unit.
     metadata.world_to_camera =
         to_render * camera.world_to_camera() * Imath::M44d(back, 0, 0, 0, 0, back, 0, 0, 0, 0, back, 0, 0, 0, 0, 1);
     metadata.world_to_ndc = to_render * camera.world_to_ndc();
@@ -153,7 +153,7 @@ public:
     {
         const InterruptGuard guard(console_.progress());
         const bool stats_file = !job_.stats_json.empty() && !job_.plan_only;
-        if (stats_file) AtomicFile(job_.stats_json); // better told now than after hours of rendering
+        if (stats_file) AtomicFile(job_.stats_json); // fails now rather than after hours of rendering
         try {
             for (size_t frame = range_.first; frame <= range_.last && !interrupted_; frame += range_.step)
                 run_frame(frame);
@@ -182,7 +182,7 @@ private:
         if (many) console_.set_prefix(fmt::format("frame {}", frame));
         if (!job_.plan_only && !job_.debug_sample) {
             for (const std::string& output : outputs_)
-                AtomicFile(frame_path(output, frame, many)); // can be written, before the work
+                AtomicFile(frame_path(output, frame, many)); // fails before the work if it cannot be written
         }
         const auto start = std::chrono::steady_clock::now();
         Progress& progress = console_.progress();
@@ -288,7 +288,7 @@ private:
     std::vector<std::string> outputs_, said_;
     FrameRange range_;
     std::vector<FrameReport> reports_;
-    std::string integrator_; ///< of the last frame: what its plan does
+    std::string integrator_; ///< TransportPlan::name() of the last frame
     bool interrupted_ = false;
 };
 
