@@ -139,7 +139,7 @@ std::vector<PlanRow> plan_rows()
         planned("asked", "nothing", all_channels, "channels " + channel, true, "asked for");
     }
 
-    // Why grains are taken as they are, or are not.
+    // Why grains are explicit geometry, or are not.
     planned("few", "ten", {}, "explicit grains", true,
             "every grain is traced as explicit geometry: there are fewer than 2000");
     planned("few", "ten", {}, "proxies", false, "every grain is traced as explicit geometry");
@@ -163,7 +163,7 @@ std::vector<PlanRow> plan_rows()
     planned("vpt", "bed", vpt, "explicit grains", false, "a medium replaces all grains");
     planned("vpt", "bed", vpt, "proxies", false, "a medium replaces all grains");
 
-    // What is made of a type.
+    // What is built for a type.
     planned("spheres", "ten", {}, "exemplar 'a'", false, "its shape is the bounding sphere itself");
     planned("unused", "unused glass", {}, "exemplar 'b'", false, "no grain has this type");
     planned("unused", "unused glass", ppt, "gsdf 'b'", false, "no grain has this type");
@@ -214,7 +214,7 @@ std::vector<PlanRow> plan_rows()
     planned("map", "sky map", {}, "environment map", true, "sky.exr");
     traced("map", "sky map", {}, "environment map", true, "sky.exr");
 
-    // Media in the place of grains.
+    // Media that replace grains.
     planned("everywhere grains", "ten", {}, medium, false, "the integrator traces grains everywhere");
     planned("thin", "thin", {}, medium, false, "few grains lie 4 mean radii deep");
     planned("not as deep", "bed", with(ept, {"--grain-depth", "100"}), medium, false,
@@ -236,7 +236,7 @@ std::vector<PlanRow> plan_rows()
     traced("apart", "apart", vpt, medium, false, "no grain lies deeper than one radius");
     traced("apart", "apart", stf, "shells", false, "there is no medium");
 
-    // Media of the scene, and ways through all of them.
+    // Media of the scene, and shells and distances in all media.
     planned("slab", "slab", {}, "medium 'slab.obj'", true, "the same everywhere, within 12 triangles");
     planned("cloud", "cloud", {}, "medium 'cloud.vdb'", true, "to be read");
     planned("empty", "empty cloud", {}, "medium 'empty.vdb'", false, "its grid is empty");

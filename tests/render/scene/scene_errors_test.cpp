@@ -1,4 +1,4 @@
-// What is said when something is wrong with a scene file, and where.
+// The messages about errors in a scene file, and the places they name.
 
 #include "tests/builders/scene_texts.h"
 #include "tests/builders/test_files.h"

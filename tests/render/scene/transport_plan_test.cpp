@@ -1,4 +1,4 @@
-// What transport is planned: every branch of the integrators and accuracies, and what the user sets.
+// The transport plan: every branch of the integrators and accuracies, and the user's switches.
 
 #include "render/build/grain_facts.h"
 #include "render/scene/transport_plan.h"
@@ -58,7 +58,7 @@ TEST_F(Plans, EptTracesGrainsAsTheyAre)
         EXPECT_FALSE(plan(IntegratorKind::ept, accuracy).has_shells);
         EXPECT_EQ(plan(IntegratorKind::ept, accuracy).name(), "ept");
     }
-    integrator.explicit_grains = 3; // is for auto and ppt
+    integrator.explicit_grains = 3; // only used by auto and ppt
     expect_every_grain_as_it_is(plan(IntegratorKind::ept));
 }
 
@@ -158,7 +158,7 @@ TEST_F(Plans, AutoTakesProxiesForGrainsThatAreNotResolved)
     EXPECT_FALSE(far.has_exemplars());
     EXPECT_THAT(far.why, HasSubstr("the largest looks only 0.16 pixels wide"));
     EXPECT_FALSE(automatic(Accuracy::high).has_exemplars());
-    camera.origin = {0, -7000, 0}; // 0.68 pixels: enough for a standard's 1, but not for the 0.5 of a high accuracy
+    camera.origin = {0, -7000, 0}; // 0.68 pixels: below the 1 of standard, above the 0.5 of high accuracy
     EXPECT_FALSE(automatic().has_exemplars());
     EXPECT_TRUE(automatic(Accuracy::high).has_exemplars());
     camera.origin = {0, 0, 0}; // amid the grains
@@ -175,7 +175,7 @@ TEST_F(Plans, AutoTakesProxiesForGrainsThatAreNotResolved)
 
 TEST_F(Plans, AutoTakesNoMediumInThinBeds)
 {
-    facts.bounds.min.z = -5.9; // on each side of the middle: 1.5 depths of 4 radii are 6
+    facts.bounds.min.z = -5.9; // half the thickness must exceed 1.5 depths of 4 radii, which is 6
     facts.bounds.max.z = 5.9;
     EXPECT_FALSE(automatic().has_grain_medium);
     EXPECT_EQ(automatic().why_no_medium, "few grains lie 4 mean radii deep");
@@ -192,7 +192,7 @@ TEST_F(Plans, TheUserHasTheLastWord)
     EXPECT_EQ(automatic().why, "proxies replace all grains except the first 5 of a path, as asked for");
     camera.origin = {0, -30000, 0};
     EXPECT_TRUE(automatic().has_exemplars());
-    EXPECT_EQ(automatic().least_pixels, 0) << "as they are, however small";
+    EXPECT_EQ(automatic().least_pixels, 0) << "explicit geometry, however small";
     facts.count = 10;
     EXPECT_TRUE(automatic().has_proxies());
     EXPECT_THAT(automatic().why, HasSubstr("as asked for"));
@@ -218,7 +218,7 @@ TEST_F(Plans, TheUserHasTheLastWord)
     EXPECT_EQ(plan(IntegratorKind::ept).why_no_medium, "no place is 60 mean radii deep");
     integrator = {};
 
-    integrator.grain_flights = 3; // and as many radii as the accuracy has it
+    integrator.grain_flights = 3; // with the depth in radii of the accuracy
     EXPECT_EQ(automatic().depth_radii, 4);
     EXPECT_EQ(automatic().depth_flights, 3);
     EXPECT_TRUE(plan(IntegratorKind::ppt).has_grain_medium);
@@ -245,10 +245,10 @@ TEST_F(Plans, TheUserHasTheLastWord)
     EXPECT_FALSE(plan(IntegratorKind::stf).shells_must_pay);
     integrator.shells = true;
     EXPECT_EQ(automatic().least_shell, 1);
-    EXPECT_FALSE(automatic().shells_must_pay) << "the user's word";
+    EXPECT_FALSE(automatic().shells_must_pay) << "set by the user";
     integrator = {};
     integrator.least_shell = 8;
-    EXPECT_FALSE(automatic().shells_must_pay) << "the user's word";
+    EXPECT_FALSE(automatic().shells_must_pay) << "set by the user";
     integrator.least_shell = 3;
     for (const IntegratorKind kind : kinds) EXPECT_EQ(plan(kind).least_shell, 3);
     integrator = {};
@@ -339,7 +339,7 @@ TEST(FactsOfList, WeighWhatGrainsAbsorbByCrossSection)
     frame.radius = {3, 1, 0};
     frame.id = {0, 1, 2};
     const GrainFacts facts = facts_of_list(frame, {0, 1, 1}, types);
-    EXPECT_EQ(facts.count, 2u) << "but for the one without a size";
+    EXPECT_EQ(facts.count, 2u) << "without the one of radius 0";
     EXPECT_EQ(facts.mean_radius, 2);
     EXPECT_EQ(facts.largest_radius, 3);
     EXPECT_NEAR(facts.loss, (9 * 0.1 + 1 * 0.5) / 10, 1e-6);
