@@ -16,7 +16,7 @@ struct AccuracyLevel {
     Accuracy accuracy;
     const char* name;
     uint32_t explicit_grains; ///< auto: grains of a path traced as explicit geometry; further ones are proxies
-    double least_pixels; ///< auto: a grain that looks narrower in the picture is a proxy from the first on
+    double least_pixels; ///< auto: if a path's first grain looks narrower in the picture, all are proxies
     double depth_radii; ///< auto: a medium replaces the grains from this depth below every face, in mean radii,
     double depth_flights; ///< but from no fewer mean free paths of that medium
     double gsdf_error; ///< mean relative error of the directional densities of a GSDF

@@ -26,7 +26,7 @@ struct IntegratorDescription {
     uint32_t max_depth = 0; ///< scattering events after which a path is cut; 0: never
     std::optional<uint32_t> explicit_grains; ///< auto and ppt: grains of a path traced as explicit geometry
     std::optional<double>
-        grain_pixels; ///< auto and ppt: a grain that looks narrower (pixels) is a proxy from the first on
+        grain_pixels; ///< auto and ppt: if a path's first grain looks narrower (pixels), all are proxies
     std::optional<double> grain_depth; ///< mean radii: depth below every face from which a medium replaces the grains
     std::optional<double> grain_flights; ///< that depth is no fewer mean free paths of that medium
     EquivalentForm medium_form = EquivalentForm::decay;

@@ -32,7 +32,7 @@ struct TransportPlan {
     Accuracy accuracy = Accuracy::standard;
     bool has_grains = false; ///< the scene has at least one grain
     uint32_t explicit_grains = all_grains; ///< grains of a path traced as explicit geometry; further ones are proxies
-    double least_pixels = 0; ///< grains that look smaller in the picture are proxies from the first on
+    double least_pixels = 0; ///< if a path's first grain looks narrower in the picture, all are proxies
     bool has_grain_medium = false; ///< a medium replaces some grains,
     bool replaces_all = false; ///< or all grains
     double depth_radii = 0; ///< depth below every face at which the medium begins: mean radii,

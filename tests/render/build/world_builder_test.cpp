@@ -1,4 +1,4 @@
-// Building a scene: render coordinates keep their precision; bad input is refused, or reversed where possible.
+// Building a scene: render coordinates keep their precision; bad input is refused, and inward meshes are turned.
 
 #include "render/build/world_builder.h"
 

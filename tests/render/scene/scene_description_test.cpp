@@ -256,7 +256,7 @@ TEST(SceneDescription, ReadsIntegrators)
     EXPECT_EQ(switches.least_shell, 4);
     EXPECT_FALSE(IntegratorDescription().grain_pixels || IntegratorDescription().grain_flights ||
                  IntegratorDescription().least_shell);
-    EXPECT_FALSE(scene.integrator.shells) << "the default of the integrator";
+    EXPECT_FALSE(scene.integrator.shells) << "left to the integrator";
     EXPECT_EQ(scene.integrator.stf_form, StfForm::full);
     const IntegratorDescription stf =
         read_with(R"("integrator": {"kind": "stf", "shells": false, "stf_form": "diffusion"})").integrator;

@@ -2,10 +2,10 @@
 
     schema_test.py SCHEMA SCREE PLAN_SCENES EXAMPLES
 
-For every scene, validation against the schema must agree with the exit code of `scree render SCENE --plan` (0 or 2). Starting scree
-takes a third of a second, so PLAN_SCENES checks many scenes in one process; scree itself checks the examples and some others. A
-broken scene is the good scene with one change. Conditions that a schema cannot express (a target away from the origin) are listed
-separately: only the program must refuse those scenes.
+For every scene, validation against the schema must agree with the exit code of `scree render SCENE --plan` (0 or 2).
+Starting scree takes a third of a second, so PLAN_SCENES checks many scenes in one process; scree itself checks the
+examples and some others. A broken scene is the good scene with one change. Conditions that a schema cannot express (a
+target that differs from the origin) are listed separately: only the program must refuse those scenes.
 """
 
 import copy
