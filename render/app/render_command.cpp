@@ -32,7 +32,7 @@ std::vector<double> split_numbers(const std::string& text, char separator, size_
     return numbers;
 }
 
-/// As split_numbers, of whole numbers in lo..hi.
+/// As split_numbers, for whole numbers in lo..hi.
 std::vector<int64_t> split_whole_numbers(const std::string& text, char separator, size_t count, double lo, double hi,
                                          const std::string& option, const std::string& expected)
 {
@@ -80,14 +80,14 @@ void take_over(Arguments& a)
         job.pixel_bounds = std::array<int, 4>{static_cast<int>(n[0]), static_cast<int>(n[1]), static_cast<int>(n[2]),
                                               static_cast<int>(n[3])};
     }
-    // Negated, for what is not a number.
+    // Negated, so that NaN fails too.
     if (a.error && !(*a.error > 0 && *a.error <= 1)) {
         throw InputError("--error", fmt::format("{}", *a.error), "a relative error in (0, 1]", "2 % is --error 0.02");
     }
     job.options.error = a.error.value_or(0);
     if (a.error && job.spp && *job.spp < 4) {
         throw InputError("--spp", std::to_string(*job.spp), "at least 4 with --error",
-                         "two halves of the samples tell the error from their spread");
+                         "the error is estimated from the spread of two halves of the samples");
     }
     if (!a.frames.empty()) job.frames = parse_frames(a.frames);
     if (!a.debug.empty()) {
@@ -108,14 +108,15 @@ void add_render_command(CLI::App& app)
     RenderJob& job = a.job;
     CLI::App* command = app.add_subcommand("render", "Render a scene to pictures");
     command->add_option("scene", job.scene, "Scene file (JSON)")->required();
-    command->add_option("-o,--output", job.outputs,
-                        "Picture to write: .exr, or .png, .jpg for looking at; repeatable; %04d takes the frame number "
-                        "(default: the scene's name .exr)");
-    command->add_option("--spp", job.spp, "Samples a pixel (default 64, or what --timeout allows and --error needs)")
+    command->add_option(
+        "-o,--output", job.outputs,
+        "Picture to write: .exr, or .png or .jpg as a preview; repeatable; %04d becomes the frame number "
+        "(default: the scene's name with .exr)");
+    command->add_option("--spp", job.spp, "Samples per pixel (default 64, or what --timeout allows or --error needs)")
         ->check(CLI::Range(1u, 1u << 30));
     command->add_option(
         "--error", a.error,
-        "Stop at this relative error of the picture, 0.02 for 2 %; noisy parts get more samples, --spp is the most");
+        "Stop at this relative error of the picture, 0.02 for 2 %; noisy parts get more samples, up to --spp");
     command->add_option("--timeout", job.options.timeout, "Stop after this many seconds of rendering a frame")
         ->check(CLI::PositiveNumber);
     for (const SceneSwitch& scene_switch : scene_switches()) add_scene_switch(*command, scene_switch, job.switches);
@@ -126,14 +127,14 @@ void add_render_command(CLI::App& app)
     command->add_option("-t,--threads", job.threads, "Threads (default: all cores)")->check(CLI::Range(1, 4096));
     command->add_option("--seed", job.options.seed, "Seed of the random numbers")->check(CLI::NonNegativeNumber);
     command
-        ->add_option("--direct-light", a.strategy, "How direct light is found: both, lights or scattering; for tests")
+        ->add_option("--direct-light", a.strategy, "How direct light is sampled: both, lights or scattering; for tests")
         ->check(CLI::IsMember(direct_light_names.words()));
     command->add_flag("--resume", job.resume,
-                      "Go on from the checkpoint that an interrupted render of the same picture left");
-    command->add_flag("--plan", job.plan_only, "Say what would be built and what is skipped, and render nothing");
+                      "Continue from the checkpoint of an interrupted render of the same picture");
+    command->add_flag("--plan", job.plan_only, "Print what would be built and what is skipped; render nothing");
     command->add_flag("--stats", job.stats, "Print statistics at the end");
     command->add_option("--stats-json", job.stats_json, "Write statistics to a JSON file");
-    command->add_option("--debug-sample", a.debug, "Trace one sample again, x,y,sample, and print every vertex");
+    command->add_option("--debug-sample", a.debug, "Trace one sample (x,y,sample) again and print every vertex");
     add_override_option(*command, job.overrides);
     command->add_flag("-q,--quiet", job.quiet, "No progress, no remarks");
     command->callback([arguments] {

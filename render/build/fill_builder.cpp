@@ -23,7 +23,7 @@ std::shared_ptr<const Domain> read_domain(const AssemblyDescription::Fill& descr
     return domain;
 }
 
-/// One tile as the mixture is to see it: rows with the radius they have in the scene.
+/// One tile for the mixture: its rows, with their radii in the scene.
 ParticleFrame tile_frame(const ProceduralFill& fill)
 {
     ParticleFrame frame;

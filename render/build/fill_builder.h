@@ -9,15 +9,15 @@
 
 namespace scree {
 
-/// A scene's fill with the mixture of its spheres, and what making them cost.
+/// A scene's fill with the mixture of its spheres, and the cost of building them.
 struct BuiltFill {
     std::shared_ptr<const ProceduralFill> fill;
     std::shared_ptr<const Mixture> mixture;
     std::vector<PartReport> parts;
-    std::vector<std::string> remarks; ///< what was changed in the mesh
+    std::vector<std::string> remarks; ///< repairs of the mesh
 };
 
-/// Reads mesh and tile of the scene's assembly, which is a fill. Throws InputError.
+/// Reads the mesh and the tile of the scene's assembly, which must be a fill. Throws InputError.
 BuiltFill build_fill(const SceneDescription& scene);
 
 } // namespace scree

@@ -6,7 +6,7 @@ namespace scree {
 
 namespace {
 
-/// Sums over grains. What a grain absorbs counts by its cross-section, as that is how often light meets it.
+/// Sums over grains. Absorption is weighted by cross-section, because light hits grains in proportion to it.
 class FactSums {
 public:
     void add(double radius, const Material& material)
@@ -52,7 +52,7 @@ GrainFacts facts_of_list(const ParticleFrame& frame, const std::vector<uint8_t>&
 
 GrainFacts facts_of_fill(const GrainFill& fill, const std::vector<GrainTypeDescription>& descriptions)
 {
-    constexpr uint64_t drawn = 4096; // which types there are is up to the mixture
+    constexpr uint64_t drawn = 4096; // sampled spheres: only the mixture knows the shares of the types
     const ProceduralFill& spheres = fill.fill();
     const uint64_t rows = spheres.tile().rows();
     FactSums sums;
@@ -64,7 +64,7 @@ GrainFacts facts_of_fill(const GrainFill& fill, const std::vector<GrainTypeDescr
     GrainFacts facts = sums.means();
     facts.count = static_cast<uint64_t>(std::ceil(spheres.expected_count()));
     facts.largest_radius = spheres.largest_radius();
-    facts.mean_radius = 0; // of a sample already, but all are at hand
+    facts.mean_radius = 0; // replaces the sample's mean: all radii of the tile are known
     for (uint64_t row = 0; row < rows; ++row) facts.mean_radius += spheres.radius(row) / static_cast<double>(rows);
     facts.bounds = spheres.domain().bounds();
     return facts;

@@ -8,11 +8,11 @@
 
 namespace scree {
 
-/// Facts of spheres of a list, those of radius 0 left out; types: of each, a number into `descriptions`.
+/// Facts of listed spheres, without those of radius 0. types: each sphere's index into `descriptions`.
 GrainFacts facts_of_list(const ParticleFrame& frame, const std::vector<uint8_t>& types,
                          const std::vector<GrainTypeDescription>& descriptions);
 
-/// Facts of a fill; which types there are, and how much of each, is as a sample of its spheres has it.
+/// Facts of a fill; the shares of its grain types are estimated from a sample of its spheres.
 GrainFacts facts_of_fill(const GrainFill& fill, const std::vector<GrainTypeDescription>& descriptions);
 
 } // namespace scree

@@ -15,10 +15,10 @@ namespace scree {
 
 namespace {
 
-constexpr uint64_t sampled = 20000; // grains: 0.7 % of a type's part
+constexpr uint64_t sampled = 20000; // grains: an error of 0.7 % in a type's share
 
-/// Mixtures and pack rates near that of the whole: the formula for each, and what the walk in the whole has found it to
-/// be off by.
+/// The medium for mixtures and pack rates near those of the whole packing: the formula, corrected by the factors that
+/// the walk in the whole packing found.
 class LocalMedia {
 public:
     LocalMedia(const GrainMedium& whole, const MomentTable& table) : whole_(whole), table_(table)
@@ -37,14 +37,14 @@ public:
         float sigma_t = 0, g = 0;
         V3f albedo{1};
     };
-    /// Scattering without grains is none.
+    /// The medium for these shares; no scattering without grains.
     Local at(const std::vector<GrainShare>& shares, double pack_rate) const
     {
         if (shares.empty() || !(pack_rate > 0)) return {};
         const MixtureMoments moments = mixture_moments(shares, std::min(pack_rate, densest));
         if (whole_.medium.form == EquivalentForm::plain)
             return {static_cast<float>(1 / moments.flight), static_cast<float>(moments.g), V3f(moments.albedo)};
-        // Grains far apart know nothing of each other, and the formula is right.
+        // Grains far apart do not influence each other: there the formula needs no correction.
         const double together = std::min(1.0, pack_rate / whole_.pack_rate);
         const auto corrected = [together](double factor) { return 1 + together * (factor - 1); };
         const double d = moments.diffusivity() * corrected(diffusivity_),
@@ -56,14 +56,14 @@ public:
     }
 
 private:
-    static constexpr double densest = 0.9; // overlapping grains may fill more than there is
+    static constexpr double densest = 0.9; // overlapping grains can exceed a pack rate of 1
     const GrainMedium& whole_;
     const MomentTable& table_;
     double diffusivity_ = 1, transport_ = 1;
     V3d lost_{1};
 };
 
-/// The grids that a medium is made of.
+/// The grids of a medium.
 struct Grids {
     openvdb::FloatGrid::Ptr sigma_t = openvdb::FloatGrid::create(0), g = openvdb::FloatGrid::create(0);
     openvdb::Vec3SGrid::Ptr albedo = openvdb::Vec3SGrid::create(openvdb::Vec3s(1));
@@ -76,7 +76,7 @@ struct Grids {
     }
 };
 
-/// Sets each of some voxels by what is there.
+/// Sets each of the voxels to at(voxel).
 template <class At>
 void fill_voxels(Grids& grids, const std::vector<openvdb::Coord>& voxels, const At& at, const Progress& progress)
 {
@@ -114,8 +114,8 @@ std::shared_ptr<const GridMedium> medium_of_list(const World& world, const Local
                 media.table().add_shares(known.codes[i], type.m2->tree().getValue(at), type.m3->tree().getValue(at),
                                          type.m4->tree().getValue(at), shares);
             }
-            // At the rim the material of the last grains is spread over voxels that are in part outside: each counts
-            // its neighbours by what they hold.
+            // At the rim the last grains are spread over voxels that are partly outside. So the pack rate is the mean
+            // over the neighbours, weighted by their own pack rates.
             double rate = 0, square = 0;
             for (int i = -1; i <= 1; ++i) {
                 for (int j = -1; j <= 1; ++j) {
@@ -136,7 +136,7 @@ std::shared_ptr<const GridMedium> medium_of_fill(const World& world, const Regio
                                                  const LocalMedia& media, const Progress& progress)
 {
     constexpr int longest = 96; // voxels along the region
-    constexpr uint64_t drawn = 64; // spheres a voxel: a part of a half is known to 6 %
+    constexpr uint64_t drawn = 64; // spheres per voxel: a share of one half is known to 6 %
     Imath::Box3d box;
     for (const V3f& p : region.positions) box.extendBy(V3d(p));
     const V3d size = box.size();
@@ -190,7 +190,8 @@ std::shared_ptr<const GridMedium> medium_of_fill(const World& world, const Regio
 
 bool is_patterned(const World& world, const PackingSample& sample)
 {
-    // The same spheres at other places: a mixture that goes by ids alone gives them the same types.
+    // Compares the types of an id with and without a sphere at another place: a mixture that only depends on ids gives
+    // the same type.
     const GrainFill& fill = *world.fill;
     for (size_t i = 0; i < sample.grains.size(); i += 16) {
         const uint64_t cell = hash_index(i, 0) % fill.fill().cell_count(),
@@ -202,13 +203,13 @@ bool is_patterned(const World& world, const PackingSample& sample)
     return false;
 }
 
-/// sample: of at least a grain.
+/// sample: at least one grain.
 GrainMedium make_grain_medium(const World& world, PackingSample sample, EquivalentForm form, const Progress& progress)
 {
     GrainMedium result;
     result.sample = std::move(sample);
     const MomentTable table(world.types, result.sample);
-    constexpr double loosest = 1e-6, densest = 0.9; // heaps of a few grains, and of grains that overlap
+    constexpr double loosest = 1e-6, densest = 0.9; // for heaps of a few grains, and of overlapping grains
     result.pack_rate = result.sample.pack_rate = std::clamp(result.sample.pack_rate, loosest, densest);
     if (needs_walk(form)) {
         const BedWalk walked = walk_like(world, result.sample, progress);
@@ -229,15 +230,15 @@ std::optional<RegionSurface> surface_below(const World& world, double depth, con
     return inset_of_mesh(positions, mesh.triangles, depth, progress);
 }
 
-/// Where a medium begins among grains.
+/// The volume of grains that a medium replaces.
 struct Core {
-    double below = 0; ///< every face
+    double below = 0; ///< depth below every face
     std::optional<RegionSurface> surface;
 
     bool is_empty() const { return !surface || surface->triangles.empty(); }
 };
 
-/// As deep as a medium begins at least, whatever it is.
+/// Least depth of any medium, whatever its mean free path.
 double least_depth(const PackingSample& sample, const GrainDepth& depth)
 {
     return depth.all ? sample.volume_weighted_radius() : depth.radii * sample.mean_radius();
@@ -256,13 +257,14 @@ void report_no_core(double below, const PackingSample& sample, const GrainDepth&
                     std::vector<PartReport>& parts, std::vector<std::string>& remarks)
 {
     parts.push_back({part, false,
-                     depth.all ? "no grain is deeper than a radius"
+                     depth.all ? "no grain lies deeper than one radius"
                                : fmt::format("no place is {:.3g} mean radii deep", below / sample.mean_radius()),
                      seconds});
-    if (depth.all) remarks.push_back("no place is deeper among the grains than one of them: the picture lacks them");
+    if (depth.all)
+        remarks.push_back("no place among the grains is deeper than one radius: the picture shows no grains");
 }
 
-/// core: as deep as the medium begins at least. Returns from how many mean radii on it stands for grains, if anywhere.
+/// core: at the least depth of the medium. Returns the depth from which the medium replaces grains, in mean radii.
 std::optional<double> replace_grains(const GrainMedium& medium, const GrainDepth& depth, Core core, World& world,
                                      std::vector<PartReport>& parts, std::vector<std::string>& remarks,
                                      const Progress& progress)
@@ -279,8 +281,8 @@ std::optional<double> replace_grains(const GrainMedium& medium, const GrainDepth
         MediumRegion region;
         region.name = part;
         region.instead_of_grains = true;
-        std::string how =
-            fmt::format("{:.3g} mean radii deep, below {} triangles, ", below / radius, surface->triangles.size());
+        std::string how = fmt::format("from {:.3g} mean radii below every face, inside {} triangles, ", below / radius,
+                                      surface->triangles.size());
         uint64_t bytes =
             surface->triangles.size() * sizeof(surface->triangles[0]) + surface->positions.size() * sizeof(V3f);
         if (!world.fill)
@@ -299,7 +301,7 @@ std::optional<double> replace_grains(const GrainMedium& medium, const GrainDepth
                          watch.seconds(), bytes});
         if (surface->coarsened)
             remarks.push_back(
-                "the surface of the medium that stands for the grains is coarse: it would have too many voxels");
+                "the surface of the medium that replaces the grains is coarse: a finer one would need too many voxels");
         if (!medium.medium.doubt.empty()) remarks.push_back("the medium of the grains: " + medium.medium.doubt);
     } else {
         report_no_core(below, medium.sample, depth, watch.seconds(), parts, remarks);
@@ -333,11 +335,11 @@ std::optional<double> replace_grains(EquivalentForm form, const GrainDepth& dept
     const char* walk = "walk in the packing";
     const Stopwatch core_watch;
     PackingSample sample = sample_packing(world, sampled, progress);
-    if (sample.grains.empty()) return std::nullopt; // there are none at all
+    if (sample.grains.empty()) return std::nullopt; // the world has no grains
     const double below = least_depth(sample, depth);
     Core core{below, surface_below(world, below, progress)};
     if (core.is_empty()) {
-        parts.push_back({walk, false, "no medium follows from it"});
+        parts.push_back({walk, false, "no medium is made from it"});
         report_no_core(below, sample, depth, core_watch.seconds(), parts, remarks);
         if (depth.all) take_all_grains(world);
         return std::nullopt;

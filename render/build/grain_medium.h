@@ -11,37 +11,37 @@
 
 namespace scree {
 
-/// What stands for a packing, and what it follows from; lengths in render coordinates.
+/// The medium that replaces a packing, and the data it is computed from; lengths in render coordinates.
 struct GrainMedium {
     PackingSample sample;
-    double pack_rate = 0; ///< of what follows: the sample's, or that of the walk
-    MixtureMoments moments; ///< of the whole
-    std::optional<PackingWalk> walk; ///< where the form needs one
+    double pack_rate = 0; ///< of the moments and the medium: the sample's, or the walk's if there is one
+    MixtureMoments moments; ///< of the whole packing
+    std::optional<PackingWalk> walk; ///< if the form needs one
     ContinuousEquivalent medium;
 };
 
-/// The equivalent of all a world's grains; every type that it has needs a GSDF. Nothing where there are no grains.
-/// Throws InputError, Cancelled.
+/// The medium equivalent to all grains of a world, whose types all need a GSDF; nothing if there are no grains. Throws
+/// InputError, Cancelled.
 std::optional<GrainMedium> make_grain_medium(const World& world, EquivalentForm form, const Progress& progress);
 
-/// Below every face of what the grains fill: where on a medium stands for them.
+/// Depth below every face of the grains' volume from which a medium replaces the grains.
 struct GrainDepth {
-    bool all = false; ///< for all grains, beginning one mean radius (by volume) within the faces
-    double radii = 0; ///< else from so many mean radii on,
-    double flights = 0; ///< but not less than so many mean free paths of the medium
+    bool all = false; ///< the medium replaces all grains and begins one mean radius (by volume) below the faces
+    double radii = 0; ///< if not all: mean radii,
+    double flights = 0; ///< but no fewer mean free paths of the medium
 };
 
-/// Puts a medium in the place of the grains that are deep enough.
+/// Replaces the grains that are deep enough by a medium.
 ///
-/// Of a list of grains the medium varies as they do, of a fill as its mixture does. Reports what was built, or why
-/// nothing was. Throws InputError, Cancelled. Returns from where on it does, in mean radii below every face; nothing
-/// where no medium was made.
+/// For listed grains the medium varies as the grains do; for a fill it varies as the mixture does. Reports what was
+/// built, or why nothing was. Returns the depth at which the medium begins, in mean radii below every face; nothing if
+/// no medium was made. Throws InputError, Cancelled.
 std::optional<double> replace_grains(const GrainMedium& medium, const GrainDepth& depth, World& world,
                                      std::vector<PartReport>& parts, std::vector<std::string>& remarks,
                                      const Progress& progress);
 
-/// Makes the medium of a form and puts it in the place of the grains; where no place is deep enough it walks nowhere.
-/// As the two above.
+/// make_grain_medium() and replace_grains() in one call; does no walk if no place is deep enough. Throws
+/// InputError, Cancelled.
 std::optional<double> replace_grains(EquivalentForm form, const GrainDepth& depth, World& world,
                                      std::vector<PartReport>& parts, std::vector<std::string>& remarks,
                                      const Progress& progress);

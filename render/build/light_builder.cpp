@@ -17,7 +17,7 @@ Light make_light(const LightDescription& description, const std::shared_ptr<cons
         const double half = description.angle * pi / 360, sine = std::sin(half / 2);
         light.one_minus_cos = 2 * sine * sine;
         light.radiance = description.irradiance;
-        // Irradiance of a disc of constant radiance overhead: L pi sin^2.
+        // A disc of constant radiance L overhead gives the irradiance pi L sin^2(half).
         if (half > 0) light.radiance *= static_cast<Real>(1 / (pi * std::sin(half) * std::sin(half)));
         break;
     }

@@ -8,7 +8,7 @@
 
 namespace scree {
 
-/// A light in render coordinates. map: of an environment light, which is read apart as frames share it.
+/// A light in render coordinates. map: of an environment light; read separately because frames share it.
 Light make_light(const LightDescription& description, const std::shared_ptr<const EnvironmentMap>& map,
                  const RenderSpace& space);
 

@@ -21,22 +21,23 @@ VdbMediumOptions vdb_options(const MediumDescription& medium)
             {}};
 }
 
-/// A name for messages: the file's.
+/// The file's name, for messages.
 std::string name_of(const MediumDescription& medium)
 {
     return (medium.mesh.empty() ? medium.vdb : medium.mesh).filename().string();
 }
 
-/// Places are doubles of about the size of the region: a way much below 2^-53 of that is none, and light leaves too
-/// soon.
+/// Coordinates are doubles of about the region's size: a distance much below 2^-53 of this size rounds to 0, and light
+/// leaves too soon.
 void warn_if_too_dense(const MediumDescription& medium, const Imath::Box3d& bounds, double unit,
                        std::vector<std::string>& warnings)
 {
-    constexpr double least = 0x1p-46; // mean free paths, of the region's size: at 2^-47 nothing was seen yet
+    constexpr double least = 0x1p-46; // mean free path over the region's size; at 2^-47 no error was seen yet
     const double size = bounds.size().length(), sigma_t = max_component(medium.sigma_t) * unit;
     if (!(sigma_t * size * least > 1)) return;
     warnings.push_back(fmt::format(
-        "the mean free path of '{}' is {:.2g} of its size: places cannot tell so small a way, and it looks too bright",
+        "the mean free path of '{}' is {:.2g} of its size: coordinates cannot resolve such a short distance, and the "
+        "medium looks too bright",
         name_of(medium), 1 / (sigma_t * size)));
 }
 
@@ -44,28 +45,29 @@ void warn_if_too_dense(const MediumDescription& medium, const Imath::Box3d& boun
 
 void MediumBuilder::refuse_overlaps(const World& world) const
 {
-    // A path samples media that it is in one after the other; two whose sigma_t depends on the channel would not know
-    // of each other.
+    // A path samples overlapping media one after the other. Two media whose sigma_t depends on the channel would not
+    // account for each other.
     for (size_t i = 0; i < world.regions.size(); ++i) {
         for (size_t j = 0; j < i; ++j) {
             const MediumRegion &a = world.regions[i], &b = world.regions[j];
             const Imath::Box3d x = a.bounds(), y = b.bounds();
-            bool overlap = true; // not only at a face
+            bool overlap = true; // touching faces do not count
             for (int axis = 0; axis < 3; ++axis)
                 overlap = overlap && x.min[axis] < y.max[axis] && y.min[axis] < x.max[axis];
             if (a.is_achromatic() || b.is_achromatic() || !overlap) continue;
             throw InputError(
                 scene_.file.string() + ": /medium",
-                fmt::format("'{}' and '{}', of both of which the extinction depends on the channel, within one box",
-                            a.name, b.name),
-                "media apart from each other, or one of them with the same extinction in all channels");
+                fmt::format(
+                    "the boxes of '{}' and '{}' overlap, and in both media the extinction depends on the channel",
+                    a.name, b.name),
+                "media whose boxes do not overlap, or one of them with the same extinction in all channels");
         }
     }
 }
 
 MediumBuilder::MediumBuilder(const SceneDescription& scene) : scene_(scene)
 {
-    if (scene.media.size() >= RegionTracer::most_regions) { // one is left for grains
+    if (scene.media.size() >= RegionTracer::most_regions) { // grains need one more region
         throw InputError(scene.file.string() + ": /medium", fmt::format("{} media", scene.media.size()),
                          fmt::format("fewer than {}", RegionTracer::most_regions));
     }
@@ -109,7 +111,7 @@ uint64_t MediumBuilder::build(World& world, const BuildContext& context, uint64_
                 parts.push_back({part, true, "to be read"});
                 continue;
             }
-            Made& made = grids_[i]; // a film of grains mostly stays in one space
+            Made& made = grids_[i]; // frames of a dump mostly share one space
             if (!made.grid || made.space.origin != world.space.origin || made.space.exponent != world.space.exponent) {
                 made = {std::make_shared<GridMedium>(
                             read_vdb_medium(medium.vdb, vdb_options(medium), world.space, context.progress)),

@@ -14,23 +14,23 @@
 
 namespace scree {
 
-/// Makes the media that a scene names into regions of worlds; files are read once.
+/// Adds the media that a scene names to worlds, as regions; reads each file once.
 class MediumBuilder {
 public:
-    /// Throws InputError when there are more media than a path can tell apart.
+    /// Throws InputError for RegionTracer::most_regions or more media (grains need one region).
     explicit MediumBuilder(const SceneDescription& scene);
 
-    /// Reads what has not been read, and the points that bound it, scene coordinates. Throws InputError.
+    /// Reads media not read so far; returns points that bound all media, in scene coordinates. Throws InputError.
     std::vector<V3d> read();
-    /// Whether any medium that was read is somewhere.
+    /// Whether any medium that was read is not empty.
     bool has_any() const { return count() > 0; }
-    /// How many of those that were read are somewhere.
+    /// Number of media that were read and are not empty.
     size_t count() const
     {
         return static_cast<size_t>(
             std::ranges::count_if(meshes_, [](const TriangleMesh& mesh) { return !mesh.triangles.empty(); }));
     }
-    /// Adds the media to `world`, whose space is set, and a report on each. Returns `hash` with their files mixed in.
+    /// Adds the media to `world`, whose space is set, and a report on each. Returns `hash` combined with their files.
     uint64_t build(World& world, const BuildContext& context, uint64_t hash);
 
 private:
@@ -38,12 +38,12 @@ private:
 
     struct Made {
         std::shared_ptr<const GridMedium> grid;
-        RenderSpace space; ///< that it was made for
+        RenderSpace space; ///< that the grid was made for
         uint64_t hash = 0; ///< of the file
     };
     const SceneDescription& scene_;
     std::map<size_t, Made> grids_; ///< by medium
-    std::vector<TriangleMesh> meshes_; ///< by medium: its surface, or the box of its grids
+    std::vector<TriangleMesh> meshes_; ///< by medium: its surface, or the box around its grids
 };
 
 } // namespace scree

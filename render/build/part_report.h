@@ -7,7 +7,7 @@
 
 namespace scree {
 
-/// What one part of a world cost, or why it is not there. For `--plan` and the statistics.
+/// The cost of one part of a world, or why it was skipped. For `--plan` and the statistics.
 struct PartReport {
     std::string part; ///< e.g. "exemplar 'sugar'"
     bool built = false;

@@ -14,11 +14,10 @@ namespace scree {
 namespace {
 
 constexpr const char* distances = "distances within media";
-constexpr const char* unknown = "grains, or a spherical light, may be met in it";
-constexpr const char* stepwise = "light is followed from scattering to scattering in media";
+constexpr const char* unknown = "grains or a sphere light may lie inside a medium";
+constexpr const char* stepwise = "light in media is traced from scattering to scattering";
 
-/// An upper bound, by the media's boxes, on the radius of a shell in mean free paths; infinite with a medium that
-/// varies.
+/// An upper bound on the radius of a shell in mean free paths, from the media's boxes; infinite if a medium varies.
 double largest_shell(const World& world)
 {
     double largest = 0;
@@ -50,38 +49,38 @@ std::optional<double> make_planned_medium(const BuildContext& context, World& wo
         context.parts.push_back(
             {"medium of the grains", true,
              all ? "to be made, in place of all grains"
-                 : fmt::format("to be made, where there is a place {:g} mean radii below every face",
-                               plan.depth_radii)});
+                 : fmt::format("to be made where a place lies {:g} mean radii below every face", plan.depth_radii)});
         return std::nullopt;
     }
     const GrainDepth depth{all, plan.depth_radii, plan.depth_flights};
     return replace_grains(plan.medium_form, depth, world, context.parts, context.warnings, context.progress);
 }
 
-/// What make() would do, as far as it is known.
+/// Reports what make() would do, as far as this is known without building.
 void PlannedShells::say(const BuildContext& context, const MediumBuilder& media, const World& world) const
 {
     const TransportPlan& plan = context.plan;
     const auto skip = [&](const char* part, const std::string& why) { context.parts.push_back({part, false, why}); };
     const bool known = plan.replaces_all || !world.has_grains() || !media.has_any();
     if (known)
-        context.parts.push_back({distances, true, "to be found, unless a spherical light may be met in a medium"});
+        context.parts.push_back({distances, true, "to be computed unless a sphere light may lie inside a medium"});
     else
         skip(distances, unknown);
     if (!plan.has_shells) return skip("shells", stepwise);
     if (!known) return skip("shells", unknown);
     const double least = std::max(1.0, plan.least_shell);
-    const bool all_read = !plan.has_grain_medium && world.regions.size() == media.count(); // grids are not, for a plan
+    const bool all_read = !plan.has_grain_medium && world.regions.size() == media.count(); // a plan does not read grids
     if (all_read && std::ranges::none_of(world.regions, &MediumRegion::is_achromatic))
         return skip("shells", "the extinction of every medium depends on the channel");
     if (const double largest = largest_shell(world); all_read && largest < least) {
-        return skip("shells", fmt::format("none can have more than {:.3g} mean free paths, of use are {:g} and more",
-                                          largest, least));
+        return skip("shells",
+                    fmt::format("no shell can be larger than {:.3g} mean free paths; at least {:g} are needed", largest,
+                                least));
     }
     const bool has_grids = media.count() > world.regions.size();
     context.parts.push_back(
         {"shells", true,
-         fmt::format("to be made, where one of {:g} mean free paths fits in a medium{}", least,
+         fmt::format("to be made where a shell of {:g} mean free paths fits in a medium{}", least,
                      plan.shells_must_pay && has_grids ? " and, in grids, where they save work" : "")});
 }
 
@@ -96,7 +95,7 @@ void PlannedShells::make(const BuildContext& context, const MediumBuilder& media
     world.clearance = make_clearance(world, context.progress);
     if (world.clearance)
         context.parts.push_back(
-            {distances, true, "from all that may be met there", watch.seconds(), world.clearance->bytes()});
+            {distances, true, "to everything that a ray can hit there", watch.seconds(), world.clearance->bytes()});
     else
         skip(distances, world.regions.empty() ? none : unknown);
     if (world.regions.empty()) return skip("shells", none);

@@ -10,17 +10,17 @@
 
 namespace scree {
 
-/// Puts a medium in the place of grains where that is planned, or says that it would.
+/// Replaces grains by a medium if that is planned; with Precompute::never, only reports it.
 ///
-/// Returns from where on it stands for them, in mean radii below every face; nothing: no medium was made. Throws
+/// Returns the depth at which the medium begins, in mean radii below every face; nothing if no medium was made. Throws
 /// InputError, Cancelled.
 std::optional<double> make_planned_medium(const BuildContext& context, World& world);
 
-/// Gives worlds the shells that are planned for their media; keeps the tables from one to the next.
+/// Gives worlds the shells that are planned for their media; keeps the tables from one world to the next.
 class PlannedShells {
 public:
-    /// Finds how far places in media are from everything, and the shells that light may go through there; or says that
-    /// it would. media: what the scene names. Throws Cancelled.
+    /// Computes the distances within media and the shells; with Precompute::never, only reports them. media: the media
+    /// that the scene names. Throws Cancelled.
     void make(const BuildContext& context, const MediumBuilder& media, World& world);
 
 private:

@@ -12,32 +12,34 @@ namespace {
 
 constexpr double largest_radius = 1024; ///< mean free paths
 
-constexpr double tolerance = 0.05; ///< within which a medium of grids counts as the same in a shell: a board of fields
-                                   ///< 49 mean free paths wide then is right to 0.2 %
-constexpr double grain_tolerance = 0.1; ///< likewise where grains are, of which parts of a shell differ by chance
-constexpr double thin = 0.5; ///< mean free paths over which what varies averages out
-constexpr double thin_grains = 16; ///< likewise where grains are: cubes that hold hundreds of them differ by chance,
-                                   ///< which the medium is measured with
-constexpr double worthwhile_work = 0.95; ///< with shells, of that without: their tables are to be made as well
-constexpr double g_step = 1.3; ///< of 1 - g, where it varies: the same for all scenes, so that they share tables
+/// Variation within which a medium of grids counts as uniform in a shell; a chessboard with fields 49 mean free paths
+/// wide is then right to 0.2 %.
+constexpr double tolerance = 0.05;
+constexpr double grain_tolerance = 0.1; ///< the same for a medium of grains, which differs by chance within a shell
+constexpr double thin = 0.5; ///< mean free paths over which variation averages out
+/// The same for a medium of grains: the measured medium differs by chance between cubes that hold hundreds of grains.
+constexpr double thin_grains = 16;
+/// Work with shells over work without, at most: making the tables of the shells costs time too.
+constexpr double worthwhile_work = 0.95;
+constexpr double g_step = 1.3; ///< factor between values of 1 - g; the same for all scenes, so that they share tables
 
-/// How many shells there is use for. inside: no shell in there is larger.
+/// The number of useful shells. inside: upper bound on the radius of a shell in the medium.
 size_t useful_shells(double sigma_t, double albedo, double g, double inside)
 {
-    // Beyond some 20 decay lengths of a diffusing medium nothing is left to go on with; smaller shells do as well.
+    // Beyond about 20 decay lengths of diffusion almost no light is left, so smaller shells are enough.
     const double decay = std::sqrt(3 * (1 - albedo) * (1 - albedo * g)),
                  most = decay > 0 ? std::min(largest_radius, std::max(1.0, 20 / decay)) : largest_radius;
     const size_t all = static_cast<size_t>(std::ceil(std::log2(largest_radius) * Stf::steps_per_octave)) + 1;
     return static_cast<size_t>(Stf::largest(std::min(most, inside * sigma_t), all) + 1);
 }
 
-/// Asymmetries from at most `low` to at least `high`.
+/// Values of g from at most `low` to at least `high`.
 std::vector<double> g_axis(double low, double high)
 {
     constexpr double most = 0.999;
     low = std::clamp(low, -most, most);
     high = std::clamp(high, -most, most);
-    constexpr double rounded = 1e-6; // means of single precision
+    constexpr double rounded = 1e-6; // the limits are in single precision
     if (high - low <= 4 * rounded) return {std::round(0.5 * (low + high) / rounded) * rounded};
     const int first = static_cast<int>(std::floor(-std::log(1 - low) / std::log(g_step))),
               last = static_cast<int>(std::ceil(-std::log(1 - high) / std::log(g_step)));
@@ -69,7 +71,7 @@ std::shared_ptr<const ClearanceField> make_clearance(const World& world, const P
         for (const V3f& p : region.positions) box.extendBy(V3d(p));
     }
     for (const Surface& surface : world.surfaces) meshes.push_back({surface.positions, surface.triangles});
-    std::vector<std::vector<V3f>> corners; // of lights; that of a sphere as of a cube around it
+    std::vector<std::vector<V3f>> corners; // of lights; a sphere is replaced by the cube around it
     corners.reserve(world.lights.lights().size());
     static constexpr std::array<std::array<uint32_t, 3>, 2> rectangle{{{0, 1, 2}, {1, 3, 2}}};
     static const TriangleMesh cube = box_mesh(V3d(-1), V3d(1));
@@ -80,7 +82,7 @@ std::shared_ptr<const ClearanceField> make_clearance(const World& world, const P
             meshes.push_back({corners.back(), rectangle});
         } else if (light.kind == LightKind::sphere) {
             if (box.intersects(Imath::Box3d(light.center - V3d(light.radius), light.center + V3d(light.radius))))
-                return nullptr; // a place may be within the cube
+                return nullptr; // a point of the medium may lie inside the cube
             corners.emplace_back();
             for (const V3d& p : cube.positions) corners.back().emplace_back(light.center + light.radius * p);
             meshes.push_back({corners.back(), cube.triangles});
@@ -96,7 +98,7 @@ void add_shells(const ShellChoice& choice, StfCache& cache, World& world, std::v
         const std::string part = "shells of '" + region.name + "'";
         const auto skip = [&](const std::string& why) { parts.push_back({part, false, why}); };
         if (!world.clearance) {
-            skip("grains, or a spherical light, may be met in it");
+            skip("grains or a sphere light may lie inside a medium");
             continue;
         }
         if (!region.is_achromatic()) {
@@ -127,7 +129,7 @@ void add_shells(const ShellChoice& choice, StfCache& cache, World& world, std::v
             std::min(0.5 * std::min({box.size().x, box.size().y, box.size().z}), world.clearance->largest()));
         if (count == 0 || Stf::radius(count - 1) < choice.least) {
             skip(count == 0 ? "none fits: no place is a mean free path away from all faces"
-                            : fmt::format("the largest has {:.3g} mean free paths, of use are {:g} and more",
+                            : fmt::format("the largest that fits has {:.3g} mean free paths; at least {:g} are needed",
                                           Stf::radius(count - 1), choice.least));
             continue;
         }
@@ -136,16 +138,16 @@ void add_shells(const ShellChoice& choice, StfCache& cache, World& world, std::v
             const ShellForecast walks =
                 forecast_shells(*region.medium, *pyramid, box, *world.clearance, count, progress);
             const double work = walks.work(world.lights.any_sampled());
-            forecast = fmt::format("in place of {:.0f} % of the scatterings, {:.2g} each, for {:.0f} % of the work",
+            forecast = fmt::format("replace {:.0f} % of the scatterings, {:.2g} a shell, for {:.0f} % of the work",
                                    100 * walks.part(), walks.each(), 100 * work);
             if (!(work <= worthwhile_work)) {
                 parts.push_back(
                     {part, false,
-                     fmt::format("they would stand {}, of use are {:.0f} % and less", forecast, 100 * worthwhile_work),
+                     fmt::format("shells would {}; at most {:.0f} % is worthwhile", forecast, 100 * worthwhile_work),
                      watch.seconds()});
                 continue;
             }
-            forecast = "; " + forecast;
+            forecast = "; they " + forecast;
         }
         std::vector<std::shared_ptr<const Stf>> stfs;
         size_t computed = 0;

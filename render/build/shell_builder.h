@@ -12,22 +12,21 @@
 
 namespace scree {
 
-/// With the number of walks that an accuracy asks for.
+/// STF options with the number of walks of an accuracy.
 StfOptions stf_options(Accuracy accuracy);
 
-/// Distances within the media of a world from all that a ray may meet there, or null where nothing is known: no media,
-/// or grains among them.
+/// Distances from points inside a world's media to everything that a ray can hit there. Null if there are no media, or
+/// if grains or a sphere light may lie inside a medium. Throws Cancelled.
 std::shared_ptr<const ClearanceField> make_clearance(const World& world, const Progress& progress);
 
 /// Which shells media get.
 struct ShellChoice {
     StfForm form = StfForm::full;
     double least = 1; ///< radius of the largest shell, in mean free paths, below which a medium gets none
-    bool must_pay = false; ///< a medium of grids gets none where walks in it do not show that they save work
+    bool must_pay = false; ///< a medium of grids gets shells only if trial walks show that shells save work
 };
 
-/// Gives the media of a world the shells that light may go through in them, after make_clearance(): of each no more
-/// than fit.
+/// Gives the media of a world their shells, up to the largest that fits; needs the clearance of make_clearance().
 ///
 /// Reports what was built, or why nothing was. Throws Cancelled.
 void add_shells(const ShellChoice& choice, StfCache& cache, World& world, std::vector<PartReport>& parts,

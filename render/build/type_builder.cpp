@@ -29,7 +29,7 @@ void TypeBuilder::add_exemplar(const GrainTypeDescription& type, Shape& shape, c
         return;
     }
     if (!context.plan.has_exemplars()) {
-        context.parts.push_back({part, false, "no grain is traced as it is"});
+        context.parts.push_back({part, false, "no grain is traced as explicit geometry"});
         return;
     }
     const Stopwatch watch;
@@ -43,7 +43,7 @@ void TypeBuilder::add_gsdf(const GrainTypeDescription& type, Shape& shape, const
 {
     const std::string part = "gsdf '" + type.name + "'";
     if (!context.plan.needs_gsdfs()) {
-        context.parts.push_back({part, false, "no grain is a proxy, and no medium stands for any"});
+        context.parts.push_back({part, false, "no grain is a proxy, and no medium replaces grains"});
         return;
     }
     const GsdfOptions options = gsdf_options(context.plan.accuracy);
@@ -55,8 +55,8 @@ void TypeBuilder::add_gsdf(const GrainTypeDescription& type, Shape& shape, const
         };
     }
     const Stopwatch watch;
-    std::shared_ptr<const Gsdf>& gsdf = gsdfs_[gsdf_key(source, options)]; // types that differ in colour only share one
-    std::string how = "made already, for another type or frame";
+    std::shared_ptr<const Gsdf>& gsdf = gsdfs_[gsdf_key(source, options)]; // types that differ only in colour share one
+    std::string how = "already made for another type or frame";
     if (!gsdf) {
         const bool now = context.precompute == Precompute::now;
         const FoundGsdf found = now ? find_gsdf(source, options, cache_folder(), context.progress)
@@ -85,7 +85,7 @@ uint64_t TypeBuilder::build(const std::vector<GrainTypeDescription>& types, cons
     for (size_t i = 0; i < types.size(); ++i) {
         const GrainTypeDescription& type = types[i];
         GrainType made{type.name, {}, nullptr};
-        if (!used[i]) { // nor is anything made because its material would need it
+        if (!used[i]) { // its material stays the default, so that nothing is built for it
             for (const char* part : {"exemplar", "gsdf"})
                 context.parts.push_back({fmt::format("{} '{}'", part, type.name), false, "no grain has this type"});
         } else {
@@ -99,7 +99,7 @@ uint64_t TypeBuilder::build(const std::vector<GrainTypeDescription>& types, cons
             if (context.plan.has_exemplars())
                 made.exemplar = shape.exemplar;
             else
-                shape.exemplar = nullptr; // was only needed to trace the GSDF
+                shape.exemplar = nullptr; // it was only needed to trace the GSDF
             made.gsdf = shape.gsdf;
             hash = mix64(hash ^ shape.hash);
         }

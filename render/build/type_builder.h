@@ -15,10 +15,10 @@
 
 namespace scree {
 
-/// Whether what takes long is made, or only said to be needed (for `--plan`; such a world cannot be rendered).
+/// Whether slow parts are computed, or only reported (for `--plan`; such a world cannot be rendered).
 enum class Precompute : uint8_t { now, never };
 
-/// What every builder of a frame is given: what is planned, and where to report.
+/// What every builder of a frame gets: the plan, and where to report.
 struct BuildContext {
     const TransportPlan& plan;
     Precompute precompute;
@@ -27,17 +27,17 @@ struct BuildContext {
     std::vector<std::string>& warnings;
 };
 
-/// With the error that an accuracy asks for.
+/// GSDF options with the error of an accuracy.
 GsdfOptions gsdf_options(Accuracy accuracy);
 
-/// Makes the grain types of worlds: exemplars where grains are traced as they are, GSDFs where there are proxies.
-/// What frames share is made once, and only when a frame has a grain of the type.
+/// Builds the grain types of worlds: exemplars for explicit geometry, GSDFs for proxies and media. Frames share what is
+/// built; a type is built only when a frame has a grain of it.
 class TypeBuilder {
 public:
     explicit TypeBuilder(std::shared_ptr<const EmbreeDevice> device) : device_(std::move(device)) {}
 
-    /// Adds every type to `world` (whose space is set), what is needed of those used, and a report on each part.
-    /// Returns `hash` with the shapes mixed in. Throws InputError, or Cancelled.
+    /// Adds all types to `world` (whose space is set) with the parts that the used types need, and a report on each
+    /// part. Returns `hash` combined with the shapes. Throws InputError, or Cancelled.
     uint64_t build(const std::vector<GrainTypeDescription>& types, const std::vector<uint8_t>& used,
                    const BuildContext& context, World& world, uint64_t hash);
 
@@ -45,7 +45,7 @@ private:
     struct Shape {
         std::shared_ptr<const Exemplar> exemplar; ///< null until it is needed, and for the sphere itself
         std::shared_ptr<const Gsdf> gsdf;
-        uint64_t hash = 0; ///< of the user's file, or of what the library makes it from; 0: the sphere
+        uint64_t hash = 0; ///< of the user's file, or of the library's parameters; 0: the sphere
     };
     std::shared_ptr<const Exemplar> make_exemplar(const GrainTypeDescription& type) const;
     void add_exemplar(const GrainTypeDescription& type, Shape& shape, const BuildContext& context) const;

@@ -25,7 +25,7 @@ namespace scree {
 
 namespace {
 
-/// The box as a space: its middle, and its size in powers of two.
+/// The space of a box: its middle as origin, and its size rounded to a power of two as scale.
 RenderSpace space_of(const Imath::Box3d& box)
 {
     RenderSpace space;
@@ -36,7 +36,7 @@ RenderSpace space_of(const Imath::Box3d& box)
     return space;
 }
 
-/// Bounds of points, and through `space` the middle and size of the scene in powers of two.
+/// Bounds of points; space() gives their render space.
 struct Bounds {
     V3d lo{std::numeric_limits<double>::infinity()}, hi{-std::numeric_limits<double>::infinity()};
 
@@ -51,11 +51,11 @@ struct Bounds {
     RenderSpace space() const { return empty() ? RenderSpace() : space_of({lo, hi}); }
 };
 
-/// The middle of the bounds; or, where a few grains have run so far away that the middle would cost the others their
-/// precision, the median of each axis.
+/// The middle of the bounds. If a few grains are so far away that this would cost the others their precision: the
+/// median of each axis.
 V3d scene_origin(const std::vector<V3d>& points, const Bounds& bounds)
 {
-    constexpr double far = 1000; // in widths of the middle half of the grains
+    constexpr double far = 1000; // in widths of the middle half of the grains' positions
     const V3d middle = bounds.space().origin;
     const size_t n = points.size();
     if (n < 16) return middle;
@@ -76,15 +76,15 @@ V3d scene_origin(const std::vector<V3d>& points, const Bounds& bounds)
     return reach > far * width && width > 0 ? median : middle;
 }
 
-/// Centres the scene on what its grains were packed into, so that the fill and the list of its spheres are the same
-/// numbers.
+/// Centres the scene on the domain that its grains fill, so that a fill and the list of its spheres have the same
+/// coordinates to the bit.
 void set_domain(const Imath::Box3d& domain, World& world)
 {
     world.space = space_of(domain);
     world.domain = Imath::Box3d(world.space.point(domain.min), world.space.point(domain.max));
 }
 
-/// The scene's spheres, whatever they come from, with the grain type of each.
+/// The scene's spheres from any source, with the grain type of each.
 struct Spheres {
     ParticleFrame frame;
     std::vector<uint8_t> types;
@@ -173,7 +173,7 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, const BuildContext& 
                                            BuiltFrame& built)
 {
     const ParticleFrame& frame = spheres.frame;
-    Bounds bounds; // grains of radius 0 are left out of the world, and so of its bounds
+    Bounds bounds; // without grains of radius 0, which are not in the world
     std::vector<uint8_t> used(scene.types.size(), 0);
     for (size_t i = 0; i < frame.size(); ++i) {
         if (!(frame.radius[i] > 0)) continue;
@@ -196,7 +196,7 @@ GrainStore WorldBuilder::Impl::make_grains(Spheres spheres, const BuildContext& 
         const uint32_t type = spheres.types[i];
         const V3d p = world.space.point(frame.position[i]);
         const auto r = static_cast<float>(world.space.length(frame.radius[i]));
-        if (!(r >= std::numeric_limits<float>::min())) { // also what underflows: too small for any ray
+        if (!(r >= std::numeric_limits<float>::min())) { // also radii that underflow: no ray could hit them
             ++without_size;
             return;
         }
@@ -291,7 +291,7 @@ void WorldBuilder::Impl::make_surfaces(World& world, BuiltFrame& built)
                                watch.seconds(), bytes});
 }
 
-/// The map of an environment light, read once; null for others.
+/// The map of an environment light, read once; null for other lights.
 std::shared_ptr<const EnvironmentMap> WorldBuilder::Impl::read_map(size_t light, BuiltFrame& built)
 {
     const LightDescription& description = scene.lights[light];

@@ -12,20 +12,20 @@
 
 namespace scree {
 
-/// One frame of a scene, ready to be traced, and what is known of how it was built.
+/// One frame of a scene, ready to be traced, and how it was built.
 struct BuiltFrame {
     std::shared_ptr<const World> world;
     TransportPlan plan;
     std::vector<PartReport> parts; ///< built or skipped, in order
-    std::vector<std::string> warnings; ///< remarks on the input that are no errors (a truncated last frame, ...)
+    std::vector<std::string> warnings; ///< remarks on the input that are not errors (a truncated last frame, ...)
     uint64_t hash = 0; ///< of the scene's text and of every file and number the world was built from
-    std::optional<double> medium_depth; ///< mean radii below every face from where a medium replaces the grains, if any
+    std::optional<double> medium_depth; ///< mean radii: depth from which a medium replaces the grains, if any
     size_t frame = 0;
     std::string name; ///< file and step; empty without a dump
 };
 
-/// Builds the frames of a scene. What frames share (exemplars, environment maps, surfaces) is read once, and only when
-/// a frame needs it.
+/// Builds the frames of a scene. What frames share (exemplars, environment maps, surfaces) is read once, when the first
+/// frame needs it.
 class WorldBuilder {
 public:
     /// Finds the frames of the scene's dump. Throws InputError.
@@ -33,11 +33,11 @@ public:
     ~WorldBuilder();
 
     const SceneDescription& scene() const;
-    /// Frames of the assembly; 1 when it has no dump.
+    /// Number of frames of the assembly; 1 when it has no dump.
     size_t frame_count() const;
     std::shared_ptr<const EmbreeDevice> device() const;
 
-    /// Reads frame `frame` and everything it needs. Throws InputError, or Cancelled from within what is precomputed.
+    /// Reads frame `frame` and everything it needs. Throws InputError, or Cancelled during precomputation.
     BuiltFrame build(size_t frame, const Progress& progress = {}, Precompute precompute = Precompute::now);
 
 private:

@@ -1,4 +1,4 @@
-// Volumetric path tracing: a path among media, and what it does where one scatters it.
+// Volumetric path tracing: a path in media, and its scattering there.
 
 #include "base/warp.h"
 #include "render/integrators/path.h"
@@ -35,7 +35,7 @@ void Path::enter_world()
 double Path::clear()
 {
     if (ray_.clear >= 0) return ray_.clear;
-    // Within a mean free path a ray costs as much as a clearance, and no shell fits.
+    // If the clearance is below a mean free path, a ray costs as much as the query, and no shell fits.
     double least = 0;
     if (const MediumRegion* const region = only_region()) {
         if (region->shells)
@@ -48,8 +48,8 @@ double Path::clear()
 
 MediumEvent Path::medium_event(double t0, double t1)
 {
-    // Media that overlap add up: the nearest event of all counts. A medium whose sigma_t depends on the channel comes
-    // last, so that its walk ends where another event makes the rest of it pointless.
+    // Overlapping media add up: the nearest of their events counts. A medium whose sigma_t depends on the channel comes
+    // last, so that its walk can end at the nearest event of the others.
     MediumEvent first;
     for (const bool achromatic : {true, false}) {
         for_each_region(media_.regions, [&](uint32_t number) {
@@ -76,7 +76,7 @@ Color Path::media_transmittance(RegionSet regions, const V3d& o, const V3d& d, d
 bool Path::step_through_media(Hit& met)
 {
     if (const std::optional<bool> alive = step_through_shell(met)) return *alive;
-    if (media_.regions != 0) { // far from all geometry the ray can meet nothing but the medium
+    if (media_.regions != 0) { // within the clear radius the ray can only meet the medium
         if (const double until = clear(); until > ray_.passed) {
             if (const MediumEvent event = medium_event(ray_.passed, until); event.scattered)
                 return handle_medium(event, met);
@@ -90,12 +90,12 @@ bool Path::step_through_media(Hit& met)
         sight = look();
         return sight.hit.place.kind == HitKind::none ? infinite : sight.hit.t;
     };
-    // Outside media, geometry mostly ends the ray before it reaches one.
+    // Outside media, geometry mostly ends the ray before it reaches a medium.
     const bool outside = media_.regions == 0;
     double next = outside ? distance() : infinite;
     const bool crosses = region_tracer_->next(ray_.o, ray_.d, ray_.passed, next,
                                               ray_.crossed ? &*ray_.crossed : nullptr, media_.regions, crossing);
-    if (!outside && media_.regions == 0) ++result_.leaks; // lost through the surface of a medium
+    if (!outside && media_.regions == 0) ++result_.leaks; // the ray slipped through the surface of a medium
     if (!outside || media_.regions != 0) next = distance();
     if (media_.regions != 0) {
         if (const MediumEvent event = medium_event(ray_.passed, std::min(crossing.t, next)); event.scattered)
@@ -120,17 +120,17 @@ void Path::handle_crossing(const Crossing& crossing)
     ray_.crossed = crossing;
     ray_.passed = crossing.t;
     if (among_grains || detail(media_.regions) == GrainDetail::none) return;
-    // The ray comes back among grains, where it was not traced so far: it starts anew in the void between them.
+    // The ray comes back among grains, which were not traced so far: it starts again in the void between them.
     attenuate(surrounding_, crossing.t);
     moved_ += crossing.t;
     start_ray(void_point(ray_.o + crossing.t * ray_.d, ray_.d, crossing), ray_.d, {});
-    ray_.crossed = crossing; // the start may still be on that triangle
+    ray_.crossed = crossing; // the start may still lie on this triangle
     last_.elsewhere = true;
 }
 
 V3d Path::void_point(const V3d& place, const V3d& d, const Crossing& crossing)
 {
-    constexpr int tries = 32; // each finds the void with its part of the volume
+    constexpr int tries = 32; // each succeeds with the void's share of the volume as probability
     constexpr double reach = 3;
     V3d point = place;
     Hit around = tracer_.grain_around(point, d);
@@ -165,7 +165,7 @@ bool Path::handle_medium(const MediumEvent& event, Hit& met)
     ray_.o = met.point;
     ray_.clear = -1;
     if (samples_lights()) {
-        // Deep in a medium, lights are sampled only with the probability that light gets through to there.
+        // Deep in a medium, lights are sampled only with the probability that light reaches this point unscattered.
         double reached = 1;
         const MediumRegion* const region = only_region();
         const HomogeneousMedium* const uniform = region ? region->medium->uniform() : nullptr;
@@ -189,7 +189,7 @@ Color Path::passing(const V3d& o, const V3d& d, double distance, const Place& fr
 
 Color Path::passing_media(V3d o, const V3d& d, double distance, Place from, uint32_t light, RegionSet regions)
 {
-    constexpr Real enough = 0.05f; // below it Russian roulette decides whether to look on
+    constexpr Real enough = 0.05f; // below, Russian roulette decides whether to continue
     Color passed(1);
     const auto is_lost = [&] {
         const Real most = max_component(passed);
@@ -200,7 +200,7 @@ Color Path::passing_media(V3d o, const V3d& d, double distance, Place from, uint
     };
     Crossing crossing, last;
     bool crossed = false;
-    double t = 0, looked = 0; // along the ray: how far media, and what stands in the way, have been taken into account
+    double t = 0, looked = 0; // distances up to which media (t) and geometry (looked) have been handled
     for (;;) {
         const bool crosses = region_tracer_->next(o, d, t, distance, crossed ? &last : nullptr, regions, crossing);
         const double end = crosses ? crossing.t : distance;
@@ -210,8 +210,8 @@ Color Path::passing_media(V3d o, const V3d& d, double distance, Place from, uint
         }
         const GrainDetail grains = detail(regions);
         if (crosses) regions = RegionTracer::after(regions, crossing);
-        // One look as far as the grains are taken in one way: nothing that coincides with a medium's surface is passed
-        // by.
+        // One shadow ray as far as the GrainDetail stays the same, so that geometry that coincides with a medium's
+        // surface is not missed.
         if (!crosses || detail(regions) != grains) {
             ++result_.shadow_rays;
             const double visibility =

@@ -46,7 +46,7 @@ Hit Path::as_proxy(const Hit& hit) const
     proxy.t = along - safe_sqrt(sphere.radius * sphere.radius - (to - along * ray_.d).length2());
     proxy.point = ray_.o + proxy.t * ray_.d;
     proxy.normal = (proxy.point - sphere.centre).normalized();
-    proxy.t = std::max(0.0, proxy.t); // a camera may stand in the sphere
+    proxy.t = std::max(0.0, proxy.t); // the camera may be inside the sphere
     return proxy;
 }
 
@@ -88,7 +88,7 @@ bool Path::handle(const Sight& sight)
 
 bool Path::handle_miss()
 {
-    if (is_inside()) { // lost between two triangles: the path goes on as if there were no interface
+    if (is_inside()) { // the ray slipped between two triangles: the path goes on as if there were no interface
         ++result_.leaks;
         grains_.inside = {};
         start_ray(ray_.o, ray_.d, {});
@@ -143,7 +143,7 @@ bool Path::survives()
     const double w = max_component(weight_ * media_.spectral.weight());
     if (w <= 0) return false;
     constexpr double worth_ending =
-        1 - 0x1p-5; // above, random numbers in steps of 2^-32 would lose what next to no absorption takes
+        1 - 0x1p-5; // above, random numbers in steps of 2^-32 would be too coarse for very small absorption
     if (w >= worth_ending || depth_ < 3) return true;
     if (sampler_.next() >= w) return false;
     weight_ *= 1 / w;
@@ -174,7 +174,7 @@ void Path::add_direct_light(const Hit& hit, const Material& material, const Fram
     const LightSample light = world_.lights.sample(hit.point, u0, u1, u2);
     if (!light.valid) return;
     const V3d wi = frame.to_local(light.direction);
-    // What leads into a grain (or stays in it) is cut off by its own interface.
+    // Light that goes into a grain (or stays in it) is blocked by the grain's own interface.
     const bool leads_inside = hit.place.kind == HitKind::grain ? material.transmits() && wi.z <= 0 : is_inside();
     if (leads_inside) return;
     const Color f = eval_bsdf(material, wo, wi, sampler_);

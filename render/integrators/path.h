@@ -1,6 +1,6 @@
 #pragma once
 
-// Private to the integrators: one light path on its way, and what it does at each kind of vertex.
+// Private to the integrators: one light path in progress, and how it handles each kind of vertex.
 
 #include "render/gsdf/encounter.h"
 #include "render/integrators/path_tracer.h"
@@ -25,40 +25,39 @@ public:
     PathResult run(V3d o, V3d d, std::vector<PathVertex>* trail);
 
 private:
-    /// The ray being traced. It ends at a vertex, or goes on past a proxy that it misses and the surface of a medium.
+    /// The ray being traced. It ends at a vertex; it continues past a proxy that it misses and past a medium's surface.
     struct Ray {
         V3d o, d;
-        Place from; ///< where it starts, which it cannot meet again
-        double beyond = 0; ///< distance of the last proxy that it missed
-        double passed = 0; ///< distance up to which media and their surfaces are dealt with
-        std::optional<Crossing> crossed; ///< the last surface of a medium on it
-        double clear = -1; ///< radius around o within which there is nothing but media; negative: not computed
+        Place from; ///< where the ray starts; it cannot hit this again
+        double beyond = 0; ///< distance of the last proxy that the ray missed
+        double passed = 0; ///< distance up to which media and their surfaces have been handled
+        std::optional<Crossing> crossed; ///< the last surface of a medium that the ray crossed
+        double clear = -1; ///< radius around o that contains only media; negative: not computed
     };
 
     /// Grains on the path.
     struct Grains {
-        Place inside; ///< the grain that the path is in, if it is in one
+        Place inside; ///< the grain that contains the path's point, if any
         uint64_t last = std::numeric_limits<uint64_t>::max(); ///< last grain traced as explicit geometry
-        uint32_t explicit_left; ///< how many more may be
+        uint32_t explicit_left; ///< how many more grains may be
     };
 
     /// Media around the path.
     struct Media {
-        RegionSet regions = 0; ///< that the path is in
+        RegionSet regions = 0; ///< regions that contain the path's point
         SpectralState spectral;
         bool is_spectral = false; ///< some medium's sigma_t depends on the channel
     };
 
-    /// How the last scattering could have sampled the lights: the weight of a light that the path then meets.
+    /// How the last scattering could have sampled the lights; gives the MIS weight of a light that the path then hits.
     struct Scattering {
-        bool specular = true; ///< it (or the camera) could not
-        double pdf = 0; ///< per solid angle, of the direction it took
-        V3d seen_from{0}; ///< where it sampled the lights from
-        bool elsewhere = false; ///< the ray starts elsewhere: a light counts where a ray from seen_from meets it
+        bool specular = true; ///< the scattering (or the camera) could not sample lights
+        double pdf = 0; ///< per solid angle, of the direction taken
+        V3d seen_from{0}; ///< point from which lights were sampled
+        bool elsewhere = false; ///< the ray starts elsewhere: a light's pdf is of the ray from seen_from that hits it
     };
 
-    /// What a ray meets, and whether that is a grain too narrow for the camera to resolve: a proxy that cannot be
-    /// missed.
+    /// What a ray hits. unresolved: a grain too narrow for the camera to resolve, so a proxy that cannot be missed.
     struct Sight {
         Hit hit;
         bool unresolved = false;
@@ -72,7 +71,7 @@ private:
     }
     bool is_inside() const { return grains_.inside.kind == HitKind::grain; }
     GrainDetail detail() const { return grains_.explicit_left > 0 ? GrainDetail::as_is : GrainDetail::proxy; }
-    /// The same within regions, one of which may replace the grains.
+    /// The same inside these regions, one of which may replace the grains.
     GrainDetail detail(RegionSet regions) const
     {
         return region_tracer_ && (regions & region_tracer_->instead_of_grains()) != 0 ? GrainDetail::none : detail();
@@ -87,50 +86,51 @@ private:
     {
         if (medium) weight_ *= transmittance(*medium, length);
     }
-    /// The one medium that the path is in, or null: none, or several.
+    /// The medium that contains the path's point; null if there is none, or more than one.
     const MediumRegion* only_region() const;
 
     // Media along the ray (medium_vertex.cpp).
-    void enter_world(); ///< finds the regions that the path starts in, and its hero channel
-    /// Goes to the next scattering, surface of a medium, or hit; met: what that is.
+    void enter_world(); ///< finds the regions at the path's start, and chooses the hero channel
+    /// Goes to the next scattering, surface of a medium, or hit; met: this event.
     bool step_through_media(Hit& met);
-    /// A point in the void between the grains, near one on the surface of a medium.
+    /// A point in the void between the grains, near `place` on the surface of a medium.
     V3d void_point(const V3d& place, const V3d& d, const Crossing& crossing);
-    /// Passes the surface of a medium. On coming back among grains the ray starts anew.
+    /// Crosses the surface of a medium. If the ray comes back among grains, it starts again there.
     void handle_crossing(const Crossing& crossing);
-    /// The first scattering in the media around, between two distances along the ray.
+    /// The first scattering in the current media, between two distances along the ray.
     MediumEvent medium_event(double t0, double t1);
     Color media_transmittance(RegionSet regions, const V3d& o, const V3d& d, double t0, double t1);
     /// The fraction of light that gets from a light `distance` away to o, past geometry and through media.
     Color passing(const V3d& o, const V3d& d, double distance, const Place& from, uint32_t light, RegionSet regions);
     Color passing_media(V3d o, const V3d& d, double distance, Place from, uint32_t light, RegionSet regions);
 
-    /// Radius around the ray's start within which there is nothing but media; 0 where knowing it would not help.
+    /// Radius around the ray's start that contains only media; 0 where it would be of no use.
     double clear();
 
     // Shells (shell_vertex.cpp).
-    /// Goes to the surface of the largest shell that fits around the ray's start. Returns whether the path goes on, or
-    /// nothing where no shell fits.
+    /// Goes to the surface of the largest shell that fits around the ray's start. Returns whether the path goes on;
+    /// nothing if no shell fits.
     std::optional<bool> step_through_shell(Hit& met);
     bool diffuse_through(const FittingShell& shell, Hit& met);
-    /// Leaves a place in a cosine-distributed direction; light_weight: of a light sampled there, 0 for none.
+    /// Leaves `place` in a cosine-distributed direction. light_weight: of a light sampled there; 0: no light is
+    /// sampled.
     bool leave_by_cosine(const V3d& place, const V3d& normal, Real light_weight);
-    /// Adds light at one of the scatterings in the shell, in place of all; scale: length of a mean free path.
+    /// Adds light at one scattering in the shell, which represents all of them. scale: length of a mean free path.
     void add_event_light(const FittingShell& shell, double scale, double weight);
-    /// Distance to the first scattering in a shell in which light does scatter.
+    /// Distance to the first scattering in a shell, given that light scatters in it.
     double first_flight(const FittingShell& shell);
     /// Adds light at the first scattering in the shell.
     void add_single_light(const FittingShell& shell, double weight);
-    /// Adds light that is scattered at `place` into the path, which came to there along `before`.
+    /// Adds light that scatters at `place`, to which the path came along `before`.
     void add_phase_light(const V3d& place, const V3d& before, const PhaseFunction& phase, const Color& weight);
 
-    /// clear: as Ray has it.
+    /// clear: see Ray.
     void start_ray(const V3d& o, const V3d& d, const Place& from, double clear = -1)
     {
         ray_ = {o, d, from, 0, 0, std::nullopt, clear};
     }
 
-    /// What the ray meets outside grains.
+    /// What the ray hits outside grains.
     Sight look();
     // Each handles one vertex and returns whether the path goes on.
     bool handle(const Sight& sight);
@@ -143,17 +143,17 @@ private:
     bool handle_medium(const MediumEvent& event, Hit& met);
 
     void add(const Color& light) { light_ += weight_ * media_.spectral.weight() * Weight(light); }
-    /// Russian roulette by the weight's largest channel, once enough light is lost to make it worth while.
+    /// Russian roulette by the weight's largest channel, once enough light is lost to make it worthwhile.
     bool survives();
     bool is_cut();
     void note_first(const Hit& hit, const Material& material);
 
     void add_direct_light(const Hit& hit, const Material& material, const Frame& frame, const V3d& wo);
     void add_proxy_light(const Hit& hit, const Encounter& encounter, uint32_t stratum);
-    /// Adds a light's sample over `distance`, scattered by f (per solid angle) and weighed against scatter_pdf.
+    /// Adds a light sample at `distance`, scattered by f (per solid angle), MIS-weighted against scatter_pdf.
     void add_light_sample(const LightSample& light, double distance, const Color& f, double scatter_pdf,
                           const Color& passed);
-    /// Weight of a light met by scattering, against the density with which sampling the light finds it.
+    /// MIS weight of a light hit after scattering, against the density with which light sampling finds it.
     double found_weight(double light_pdf) const;
     double found_pdf(uint32_t light, double distance) const;
     void add_infinite_lights();
@@ -168,11 +168,11 @@ private:
     Ray ray_;
     Grains grains_;
     Media media_;
-    const Material* surrounding_ = nullptr; ///< of the dielectric surface that the path is inside, outside grains
+    const Material* surrounding_ = nullptr; ///< of the dielectric surface around the path (not of a grain); or null
     Scattering last_;
     Weight light_{0}; ///< found so far
     Weight weight_{1}; ///< throughput
-    double moved_ = 0; ///< distance of the camera's ray up to where it was started anew
+    double moved_ = 0; ///< distance along the camera's ray to where it was last restarted
     uint32_t depth_ = 0; ///< scattering events
     uint64_t steps_ = 0;
     PathResult result_;

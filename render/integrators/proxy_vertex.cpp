@@ -1,6 +1,7 @@
-// Proxy path tracing (Müller et al. 2016, algorithm 1): a grain's bounding sphere stands for the grain averaged over
-// rotations. A ray that misses the grain simply goes on, and meets what else is in the sphere (the paper moves it to
-// the far side, by 2 (w_i . w_o) w_o in print, which should be the chord 2 (n_o . w_o) w_o).
+// Proxy path tracing (Müller et al. 2016, algorithm 1): a grain's bounding sphere represents the grain averaged over
+// rotations. A ray that misses the grain (probability alpha_g^0) continues, and can hit other geometry in the sphere.
+// The paper moves the ray to the far side instead, in print by 2 (w_i . w_o) w_o, which should be the chord
+// 2 (n_o . w_o) w_o.
 
 #include "render/integrators/path.h"
 
@@ -8,7 +9,7 @@ namespace scree {
 
 namespace {
 
-/// About how far a recorded path went through the bounding sphere, but not through the grain in it.
+/// Approximate length of a recorded path inside the bounding sphere but outside the grain.
 double length_outside(const V3d& entry, const V3d& exit, const GsdfRecord& record, double radius)
 {
     return std::max(0.0, (exit - entry).length() - record.length * radius);
@@ -43,7 +44,7 @@ bool Path::handle_proxy(const Hit& hit)
     const V3d exit = sphere.centre + sphere.radius * encounter.to_world(record.point.unpack());
     attenuate(surrounding_, length_outside(hit.point, exit, record, sphere.radius));
     if (const Hit between = tracer_.surface_between(hit.point, exit); between.place.kind == HitKind::surface) {
-        // A surface cuts through the sphere: the path has it before it.
+        // A surface cuts through the sphere: the path hits this surface first.
         ray_.d = (exit - hit.point).normalized();
         if (region_tracer_) media_.regions = region_tracer_->after(media_.regions, hit.point, between.point);
         last_ = {true, 0, hit.point};
@@ -57,8 +58,9 @@ bool Path::handle_proxy(const Hit& hit)
 
 void Path::add_proxy_light(const Hit& hit, const Encounter& encounter, uint32_t stratum)
 {
-    // Light is sampled from the centre; the path to it starts where a record of that direction leaves. What leaves
-    // elsewhere and meets the light though the centre does not see it there is left to scattering.
+    // Light is sampled from the sphere's centre; the shadow ray starts at the exit point of a record of that direction.
+    // Rays from other exit points that hit the light although the centre does not see it in their direction are left to
+    // scattering.
     const GrainSphere sphere = world_.sphere(hit.place.index);
     const GrainType& type = world_.types[hit.place.type];
     const Gsdf& gsdf = *type.gsdf;

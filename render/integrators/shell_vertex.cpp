@@ -35,7 +35,7 @@ std::optional<bool> Path::step_through_shell(Hit& met)
     }
     if (shells->form() == StfForm::diffusion) return diffuse_through(shell, met);
     const bool is_full = shells->form() == StfForm::full;
-    // What reaches the shell from outside of the clear ball at all.
+    // The fraction of light that reaches the shell from outside the clear ball.
     const double beyond = clear - shell.length, reached = region->medium->uniform()
                                                               ? std::exp(-shell.sigma_t * beyond)
                                                               : light_reaching(beyond, shell.sigma_t);

@@ -9,14 +9,14 @@ namespace scree {
 
 namespace {
 
-constexpr double worst_tile = 2; // times the error asked for
-constexpr double foresight = 0.5; // what part of a count the other half must have seen to decide on it
-constexpr double expected = 0.5; // sightings: what the tiles around tell of a tile weighs as much as so many of its own
-constexpr double caution = 0.5; // standard errors more than was seen: who stops at a low estimate stops too early
+constexpr double worst_tile = 2; // largest error of a tile, in errors of the picture
+constexpr double foresight = 0.5; // fraction of a count that the other half must have drawn to decide the count
+constexpr double expected = 0.5; // weight of the tiles around a tile, in sightings of its own
+constexpr double caution = 0.5; // standard errors added to an estimate: stopping at a low estimate is too early
 
 double trace(const V3d& v) { return v.x + v.y + v.z; }
 
-/// Calls f with every pixel's index in the film's rows, of one tile.
+/// Calls f with the index (in the film's rows) of every pixel of a tile.
 template <class F>
 void for_pixels(const Film& film, int tile, const F& f)
 {
@@ -28,10 +28,10 @@ void for_pixels(const Film& film, int tile, const F& f)
     }
 }
 
-constexpr double noisy = 0.1; // relative variance of a pixel's mean at which the mean says nothing of its brightness
+constexpr double noisy = 0.1; // relative variance of a pixel's mean above which the mean does not show its brightness
 
-/// The mean, made shorter so that its square has the expectation of the true one's; the noisier it is, the less is it
-/// taken to be brighter than its tile: of pixels that met a rare light once, the mean is all noise.
+/// The mean, scaled so that its square is an unbiased estimate of the true mean's square. A noisier mean is trusted
+/// less to be brighter than its tile: the mean of a pixel that hit a rare light once is only noise.
 V3d unbiased_scale(const V3d& mean, double variance_of_mean, const V3d& tile_mean)
 {
     const double square = mean.dot(mean);
@@ -41,7 +41,7 @@ V3d unbiased_scale(const V3d& mean, double variance_of_mean, const V3d& tile_mea
     return std::sqrt((trust * corrected + (1 - trust) * std::min(corrected, tile_mean.dot(tile_mean))) / square) * mean;
 }
 
-/// What a half has seen, mean over the pixels and standard error of that.
+/// Relative variance that a half has seen: the mean over the pixels, and the standard error of this mean.
 void estimate_variance(const Film& film, int tile, int half, const RelativeError& measure, TileState& state)
 {
     TileEstimate& estimate = state.estimates[static_cast<size_t>(half)];
@@ -86,7 +86,7 @@ void estimate_tiles(Film& film, AdaptivePlan& plan)
             const double samples = static_cast<double>(estimate.pixels) * film.tile_states().level;
             estimate.work = std::max(1.0, static_cast<double>(state.work[static_cast<size_t>(half)]) / samples);
         });
-        const RelativeError measure(plan.mean(half)); // needs all tiles
+        const RelativeError measure(plan.mean(half)); // needs the sums of all tiles
         each_judged([&](int tile, TileState& state) { estimate_variance(film, tile, half, measure, state); });
     }
 }
@@ -164,7 +164,7 @@ V3d AdaptivePlan::mean(int half) const
     return pixels > 0 ? sum / static_cast<double>(pixels) : V3d(0);
 }
 
-/// Samples of each half that every tile should have by what one half knows.
+/// Samples of each half that every tile should have, estimated from one half.
 std::vector<double> AdaptivePlan::wanted(int half) const
 {
     std::vector<double> samples, variances;
@@ -186,8 +186,8 @@ std::vector<double> AdaptivePlan::wanted(int half) const
                 states_.tiles[static_cast<size_t>(row * columns_ + column)].estimates[static_cast<size_t>(half)];
             double variance = own.variance;
             if (noise > 0) {
-                // As if all variance were rare sightings of equal light: a tile is expected to have so many. One that
-                // has none may have missed them.
+                // If all variance came from rare sightings of equally bright light, a tile is expected to have this
+                // many sightings. A tile without any may have missed them.
                 const double sightings = around * around / (noise * count), known = sightings + expected;
                 variance =
                     (sightings * own.variance + expected * around / count) / known * (1 + caution / std::sqrt(known));
@@ -202,7 +202,7 @@ std::vector<double> AdaptivePlan::wanted(int half) const
     for (size_t i = 0; i < samples.size(); ++i) {
         const double least = variances[i] / (worst_tile * worst_tile);
         samples[i] =
-            std::max(samples[i] * scale, least) / (2 * error_ * error_); // both halves together have twice the samples
+            std::max(samples[i] * scale, least) / (2 * error_ * error_); // both halves together have twice as many
     }
     return samples;
 }

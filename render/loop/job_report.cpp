@@ -48,31 +48,32 @@ std::vector<PartReport> all_parts(const SceneDescription& scene, const BuiltFram
     const TransportPlan& plan = built.plan;
     const World& world = *built.world;
     const std::string why_proxies = fmt::format("after {} grains of a path", plan.explicit_grains);
-    const std::string why_none = !plan.has_grains || plan.replaces_all ? plan.why : "every grain is traced as it is";
+    const std::string why_none =
+        !plan.has_grains || plan.replaces_all ? plan.why : "every grain is traced as explicit geometry";
     std::vector<PartReport> parts{{"explicit grains", plan.has_exemplars(), plan.why},
                                   {"proxies", plan.has_proxies(), plan.has_proxies() ? why_proxies : why_none}};
     parts.insert(parts.end(), built.parts.begin(), built.parts.end());
 
-    if (is_cropped) { // a grain out of sight shades those in sight and lights them, so a list keeps it
+    if (is_cropped) { // grains outside the crop shade and light those inside, so a list keeps them
         const std::string part = "grains outside the crop";
         if (!plan.has_grains || plan.replaces_all)
             parts.push_back({part, false, plan.why});
         else if (world.fill)
-            parts.push_back({part, false, "none is listed: rays find those that they meet"});
+            parts.push_back({part, false, "no grain is listed: rays find the grains they hit"});
         else
-            parts.push_back({part, true, "kept: light may come by way of any"});
+            parts.push_back({part, true, "kept: they may scatter light into the crop"});
     }
-    // As the tracer has it; where a medium is to stand for all grains they may be there still.
+    // The same condition as in the tracer; grains that a medium is to replace may still be in the world.
     const bool enters = plan.needs_gsdfs() || std::ranges::any_of(world.types, [](const GrainType& type) {
                             return type.material.transmits();
                         });
     const bool cut = enters && world.has_grains() && !plan.replaces_all && !world.surfaces.empty();
     parts.push_back({"surfaces inside grains", cut,
                      cut ? "a second structure of the surfaces, for grains they cut through"
-                         : "no path can be inside a grain and meet a surface"});
+                         : "no path inside a grain can hit a surface"});
     const bool sampled = world.lights.any_sampled();
     const char* found = world.lights.lights().empty() ? "the scene has no light"
-                                                      : "only constant light, or none, which every path finds";
+                                                      : "only constant or black lights, which need no sampling";
     parts.push_back(
         {"light sampling", sampled, sampled ? "next-event estimation with multiple importance sampling" : found});
     for (const auto& [aov, name] : aov_names) {
@@ -107,9 +108,8 @@ std::string statistics_text(const FrameReport& report)
     text += fmt::format("  set up in {:.2f} s, rendered in {:.2f} s: {} samples a pixel, {} paths\n",
                         report.setup_seconds, s.seconds, s.spp, s.paths);
     if (s.error) {
-        text +=
-            fmt::format("  relative error {:.3g} (tile of the largest: {:.3g}), {:.1f} samples a pixel in the mean\n",
-                        s.error->picture, s.error->worst_tile, s.mean_spp);
+        text += fmt::format("  relative error {:.3g} (worst tile: {:.3g}), {:.1f} samples a pixel on average\n",
+                            s.error->picture, s.error->worst_tile, s.mean_spp);
     }
     text +=
         fmt::format("  {} segments ({:.3f} million a second), {} shadow rays, {:.2f} segments a path, longest {}\n",

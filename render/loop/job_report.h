@@ -18,19 +18,19 @@ struct FrameReport {
     RenderStatistics statistics{};
 };
 
-/// Everything that was built for a frame, or would be, or is skipped, and why; without the acceleration structure.
-/// is_cropped: only a part of the picture is asked for.
+/// Every part of a frame, built (or to be built) or skipped, and why; without the acceleration structure. is_cropped:
+/// only a part of the picture is rendered.
 std::vector<PartReport> all_parts(const SceneDescription& scene, const BuiltFrame& built, bool is_cropped);
 
-/// The same as text, a line a part. frame_count: of the scene.
+/// all_parts() as text, one line for each part. frame_count: of the scene.
 std::string plan_text(const SceneDescription& scene, const BuiltFrame& built, size_t frame_count, bool is_cropped);
 
 std::string statistics_text(const FrameReport& report);
 
-/// All frames as one JSON object; integrator: by its name.
+/// All frames as one JSON object. integrator: its name.
 std::string statistics_json(const std::vector<FrameReport>& reports, const std::string& integrator);
 
-/// One sample again, vertex by vertex, in the scene's unit.
+/// Traces one sample again and lists its vertices, in the scene's unit.
 std::string debug_text(const World& world, const Tracer& tracer, const Camera& camera, const Filter& filter,
                        const SamplePlace& place, const RenderOptions& options);
 

@@ -23,7 +23,7 @@ namespace {
 
 constexpr int interrupted_status = 130;
 
-/// The name of a frame's picture: %d and %04d take the frame number; several frames without one get ".0007".
+/// The name of a frame's picture: %d and %04d become the frame number; without them, several frames get ".0007".
 std::string frame_path(const std::string& output, size_t frame, bool many)
 {
     const size_t percent = output.find('%');
@@ -41,7 +41,7 @@ std::string frame_path(const std::string& output, size_t frame, bool many)
     return path.replace_extension().string() + fmt::format(".{:04}", frame) + extension;
 }
 
-/// The pixels a crop keeps: those whose middle lies in it, so that abutting crops share none.
+/// A film of the pixels whose middle lies in the crop, so that adjacent crops share no pixel.
 Film make_film(const RenderJob& job, const FilmDescription& film)
 {
     const int w = film.width, h = film.height;
@@ -103,7 +103,7 @@ PictureMetadata make_metadata(const RenderJob& job, const BuiltFrame& built, con
     const Imath::M44d to_render(scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, scale, 0, -o.x * scale, -o.y * scale,
                                 -o.z * scale, 1);
     const double back = world.space.world_length(1);
-    // Camera space is in the scene's unit again; NDC has none.
+    // Camera space is in the scene's unit again; NDC has no unit.
     metadata.world_to_camera =
         to_render * camera.world_to_camera() * Imath::M44d(back, 0, 0, 0, 0, back, 0, 0, 0, 0, back, 0, 0, 0, 0, 1);
     metadata.world_to_ndc = to_render * camera.world_to_ndc();
@@ -153,7 +153,7 @@ public:
     {
         const InterruptGuard guard(console_.progress());
         const bool stats_file = !job_.stats_json.empty() && !job_.plan_only;
-        if (stats_file) AtomicFile(job_.stats_json); // better told now than after hours of rendering
+        if (stats_file) AtomicFile(job_.stats_json); // fails now rather than after hours of rendering
         try {
             for (size_t frame = range_.first; frame <= range_.last && !interrupted_; frame += range_.step)
                 run_frame(frame);
@@ -182,7 +182,7 @@ private:
         if (many) console_.set_prefix(fmt::format("frame {}", frame));
         if (!job_.plan_only && !job_.debug_sample) {
             for (const std::string& output : outputs_)
-                AtomicFile(frame_path(output, frame, many)); // can be written, before the work
+                AtomicFile(frame_path(output, frame, many)); // fails before the work if it cannot be written
         }
         const auto start = std::chrono::steady_clock::now();
         Progress& progress = console_.progress();
@@ -262,20 +262,21 @@ private:
     {
         if (s.non_finite > 0) {
             const SamplePlace& p = *s.first_non_finite;
-            say(fmt::format("{} samples were not finite and are left out; the first again: --debug-sample {},{},{}",
-                            s.non_finite, p.x, p.y, p.sample));
+            say(fmt::format(
+                "{} samples were not finite and are left out; to trace the first again: --debug-sample {},{},{}",
+                s.non_finite, p.x, p.y, p.sample));
         }
         if (s.cancelled)
-            say(fmt::format("interrupted: the picture holds at least {} samples a pixel; go on with --resume", s.spp));
+            say(fmt::format("interrupted: the picture holds at least {} samples a pixel; continue with --resume",
+                            s.spp));
         else if (s.timed_out)
             say(fmt::format("stopped by --timeout at {} samples a pixel", s.spp));
         if (job_.options.error > 0 && !s.error_reached) {
             say("--error was not reached: " +
                 (s.error ? fmt::format("{:.3g}, in the worst tile {:.3g}", s.error->picture, s.error->worst_tile)
-                         : std::string("pixels have too few samples to tell it")));
+                         : std::string("pixels have too few samples to estimate it")));
         }
-        if (s.stopped > 0)
-            say(fmt::format("{} paths were still on their way when time ran out and are left out", s.stopped));
+        if (s.stopped > 0) say(fmt::format("{} paths were unfinished when time ran out and are left out", s.stopped));
         if (s.cut > 0)
             say(fmt::format("{} of {} paths were cut by the depth limit: the picture is too dark", s.cut, s.paths));
     }
@@ -287,7 +288,7 @@ private:
     std::vector<std::string> outputs_, said_;
     FrameRange range_;
     std::vector<FrameReport> reports_;
-    std::string integrator_; ///< of the last frame: what its plan does
+    std::string integrator_; ///< TransportPlan::name() of the last frame
     bool interrupted_ = false;
 };
 

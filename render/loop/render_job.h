@@ -19,7 +19,7 @@ struct FrameRange {
 struct RenderJob {
     std::filesystem::path scene;
     std::vector<std::string> outputs; ///< empty: the scene's name with .exr
-    std::optional<uint32_t> spp;
+    std::optional<uint32_t> spp; ///< samples per pixel
     std::vector<SceneOverride> overrides; ///< values of the scene that -D replaces
     std::vector<SceneOverride> switches; ///< values of the scene that flags replace
     std::optional<FrameRange> frames;
@@ -35,7 +35,7 @@ struct RenderJob {
     void set(const std::string& flag, const std::string& text);
 };
 
-/// Renders; returns the program's exit status: 0, or 130 when interrupted (the pictures hold what there was).
+/// Renders. Returns the program's exit status: 0, or 130 when interrupted (the pictures then hold the samples so far).
 /// Throws InputError.
 int run_render_job(const RenderJob& job);
 

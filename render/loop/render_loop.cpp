@@ -15,7 +15,7 @@ namespace scree {
 
 namespace {
 
-constexpr double wave_seconds = 2; // what a wave may take: how long a user waits for Ctrl-C
+constexpr double wave_seconds = 2; // target duration of a wave, and so the longest wait after Ctrl-C
 
 using Clock = std::chrono::steady_clock;
 
@@ -23,9 +23,9 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 bool finite(const Color& c) { return std::isfinite(c.x + c.y + c.z); }
 
-/// What a sample cost, in rays. A scattering in a medium takes as long as 4 of them, with the light that is looked for
-/// from there and what it passes, and a shell as 8: on the bench suite's cloud and statue these add up to the time of a
-/// pixel within 9 %.
+/// The cost of a sample, in rays. A scattering in a medium, with its light sample and the media that the light passes,
+/// takes as long as 4 rays, and a shell as long as 8. On the bench suite's cloud and statue these add up to the time of
+/// a pixel within 9 %.
 uint64_t work_of(const PathResult& path)
 {
     return uint64_t{path.segments} + path.shadow_rays + 4 * uint64_t{path.events} + 8 * uint64_t{path.shells};
@@ -99,7 +99,7 @@ private:
         exhausted_ = done >= options_.spp;
     }
 
-    /// One wave a level of the plan.
+    /// One wave for each level of the plan.
     void run_to_error()
     {
         if (film_.halves().empty()) film_.keep_halves();
@@ -126,7 +126,7 @@ private:
             first = false;
             if (!complete) break;
             exhausted_ = limited;
-            if (limited) break; // nothing is decided where the limit stopped it: more may come
+            if (limited) break; // below the level nothing is decided: a later call may draw more
             estimate_tiles(film_, plan);
             plan.decide();
             if (progress_.cancelled() || out_of_time()) break;
@@ -137,8 +137,8 @@ private:
         total_.spp = least_drawn();
     }
 
-    /// Draws what `run` does of each tile, unless time runs out (but not in the first wave: a picture has a sample
-    /// everywhere) or the user stops it; false then. fraction_done: of the picture from that of the wave.
+    /// Calls `run` for each tile. Returns false if time runs out or the user stops; time does not stop the first wave,
+    /// so that every pixel has a sample. fraction_done: progress of the picture as a function of the wave's progress.
     template <class Fraction, class Run>
     bool run_wave(const std::vector<int>& tiles, bool first, const Fraction& fraction_done, const Run& run)
     {
@@ -162,7 +162,7 @@ private:
         return complete;
     }
 
-    /// Calls f with every pixel of a tile, until f or `stop` says that it is enough; false then.
+    /// Calls f with every pixel of a tile; returns false as soon as f returns false or `stop` returns true.
     template <class Stop, class F>
     bool each_pixel(int tile, const Stop& stop, const F& f) const
     {
@@ -177,7 +177,7 @@ private:
         return true;
     }
 
-    /// Brings every pixel of a tile to `target` samples; false if stopped before.
+    /// Brings every pixel of a tile to `target` samples; false if stopped earlier.
     template <class Stop>
     bool run_tile(int tile, uint32_t target, const Stop& stop, RenderStatistics& part)
     {
@@ -189,7 +189,7 @@ private:
         });
     }
 
-    /// The same to so many samples of each half.
+    /// Brings every pixel of a tile to these numbers of samples in its halves; false if stopped earlier.
     template <class Stop>
     bool run_halves(int tile, const std::array<uint32_t, 2>& each, const Stop& stop, RenderStatistics& part)
     {
@@ -207,7 +207,7 @@ private:
         });
     }
 
-    /// One sample of a pixel; nothing if it was stopped on its way.
+    /// Draws one sample of a pixel; nothing if the path was stopped.
     std::optional<PathResult> draw(int x, int y, uint32_t s, RenderStatistics& part)
     {
         const PathResult path = render_sample(world_, tracer_, camera_, filter_, x, y, s, path_options_);
@@ -233,7 +233,7 @@ private:
     const Filter& filter_;
     Film& film_;
     const RenderOptions& options_;
-    RenderOptions path_options_; ///< with the loop's own word on when to stop
+    RenderOptions path_options_; ///< with the loop's own PathOptions::stop
     const Progress& progress_;
     const Clock::time_point start_ = Clock::now();
     RenderStatistics total_;

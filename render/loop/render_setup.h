@@ -9,13 +9,13 @@
 
 namespace scree {
 
-/// The job's scene, with all that the command line replaces. Throws InputError.
+/// The job's scene, with the values that the command line replaces. Throws InputError.
 SceneDescription load_scene(const RenderJob& job);
 
-/// The scene's camera over a film of its size, in render coordinates.
+/// The scene's camera for the scene's film size, in render coordinates.
 Camera make_camera(const SceneDescription& scene, const RenderSpace& space);
 
-/// One frame ready to be rendered: its world, what traces it, its camera, and how a path is to go.
+/// One frame ready to be rendered: world, tracer, camera, filter and options.
 class RenderSetup {
 public:
     /// Builds the acceleration structures of a frame of the builder's scene.
@@ -26,7 +26,7 @@ public:
     const Camera& camera() const { return camera_; }
     const Filter& filter() const { return filter_; }
     const RenderOptions& options() const { return options_; }
-    const std::vector<PartReport>& parts() const { return parts_; } ///< all that was built or skipped
+    const std::vector<PartReport>& parts() const { return parts_; } ///< built or skipped
 
 private:
     RenderSetup(const WorldBuilder& builder, const BuiltFrame& built, const RenderJob& job, int64_t bytes_before,

@@ -11,14 +11,14 @@ namespace scree {
 /// How far approximations may go.
 enum class Accuracy : uint8_t { reference, high, standard, draft };
 
-/// What an accuracy means wherever it is asked. docs/bench has the errors that were measured.
+/// All numbers that an accuracy sets. docs/bench has the measured errors.
 struct AccuracyLevel {
     Accuracy accuracy;
     const char* name;
     uint32_t explicit_grains; ///< auto: grains of a path traced as explicit geometry; further ones are proxies
-    double least_pixels; ///< auto: a grain that looks narrower in the picture is a proxy from the first on
-    double depth_radii; ///< auto: mean radii below every face from where a medium replaces the grains,
-    double depth_flights; ///< but no fewer mean free paths of that medium
+    double least_pixels; ///< auto: if a path's first grain looks narrower in the picture, all are proxies
+    double depth_radii; ///< auto: a medium replaces the grains from this depth below every face, in mean radii,
+    double depth_flights; ///< but from no fewer mean free paths of that medium
     double gsdf_error; ///< mean relative error of the directional densities of a GSDF
     uint64_t stf_walks; ///< walks behind each table of an STF
 };

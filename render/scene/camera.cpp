@@ -61,7 +61,7 @@ Imath::M44d Camera::world_to_camera() const
 
 Imath::M44d Camera::world_to_ndc() const
 {
-    // Depth is left as it is: no clipping planes.
+    // Depth is unchanged: there are no clipping planes.
     const double sx = 1 / half_width_, sy = 1 / half_height_;
     const Imath::M44d projection = kind_ == CameraKind::perspective
                                        ? Imath::M44d(sx, 0, 0, 0, 0, sy, 0, 0, 0, 0, -1, -1, 0, 0, 0, 0)

@@ -19,8 +19,9 @@ const std::vector<IntegratorKey>& integrator_keys()
     using Integrator = IntegratorDescription&;
     static const std::vector<IntegratorKey> keys{
         {"kind", "--integrator",
-         "auto (joins the others as the scene and --accuracy ask), ept (every grain as explicit geometry), ppt (grains "
-         "averaged over rotations), vpt (a medium in place of the grains) or stf (the same, crossed in shells)",
+         "auto (combines the others according to the scene and --accuracy), ept (every grain as explicit geometry), "
+         "ppt (grains averaged over rotations), vpt (a medium in place of the grains) or stf (the same, crossed in "
+         "shells)",
          [](Value v, Integrator i) { i.kind = v.choice(integrator_names); }},
         {"accuracy", "--accuracy", "How far approximations may go: reference, high, standard or draft",
          [](Value v, Integrator i) { i.accuracy = v.choice(accuracy_names); }},
@@ -29,15 +30,16 @@ const std::vector<IntegratorKey>& integrator_keys()
          "ppt 0)",
          [](Value v, Integrator i) { i.explicit_grains = static_cast<uint32_t>(v.integer(0, most_grains)); }},
         {"grain_pixels", "--grain-pixels",
-         "Grains that look narrower than this many pixels are proxies from the first on (default: 0, auto by "
-         "--accuracy)",
+         "If the first grain of a path looks narrower than this many pixels, it and all later grains are proxies "
+         "(default: 0, auto by --accuracy)",
          [](Value v, Integrator i) { i.grain_pixels = v.number(0, largest); }},
         {"grain_depth", "--grain-depth",
          "How many mean radii below every face a medium replaces the grains (default: auto by --accuracy, ept and ppt "
          "nowhere)",
          [](Value v, Integrator i) { i.grain_depth = v.number(0, largest); }},
         {"grain_flights", "--grain-flights",
-         "But no fewer mean free paths of that medium below every face (default: 0, auto by --accuracy)",
+         "The medium of the grains begins at least this many of its mean free paths below every face (default: 0, auto "
+         "by --accuracy)",
          [](Value v, Integrator i) { i.grain_flights = v.number(0, largest); }},
         {"medium_form", "--medium-form",
          "How the medium of the grains is computed: plain, formula, walk or decay (default)",

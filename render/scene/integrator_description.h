@@ -18,24 +18,24 @@ inline const EnumNames<IntegratorKind> integrator_names{{IntegratorKind::automat
                                                         {IntegratorKind::vpt, "vpt"},
                                                         {IntegratorKind::stf, "stf"}};
 
-/// The scene's "integrator", as the file and the command line have it; transport_plan.h decides what it means for the
-/// scene's grains. An absent value leaves the choice to the kind and the accuracy.
+/// The scene's "integrator" as given by the file and the command line. plan_transport() decides what it means for the
+/// scene's grains; it chooses absent values by the kind and the accuracy.
 struct IntegratorDescription {
     IntegratorKind kind = IntegratorKind::automatic;
     Accuracy accuracy = Accuracy::standard;
     uint32_t max_depth = 0; ///< scattering events after which a path is cut; 0: never
     std::optional<uint32_t> explicit_grains; ///< auto and ppt: grains of a path traced as explicit geometry
     std::optional<double>
-        grain_pixels; ///< auto and ppt: a grain that looks narrower (pixels) is a proxy from the first on
-    std::optional<double> grain_depth; ///< mean radii below every face from where a medium replaces the grains
-    std::optional<double> grain_flights; ///< but no fewer mean free paths of that medium
+        grain_pixels; ///< auto and ppt: if a path's first grain looks narrower (pixels), all are proxies
+    std::optional<double> grain_depth; ///< mean radii: depth below every face from which a medium replaces the grains
+    std::optional<double> grain_flights; ///< that depth is no fewer mean free paths of that medium
     EquivalentForm medium_form = EquivalentForm::decay;
     std::optional<bool> shells; ///< whether light crosses media in shells
     StfForm stf_form = StfForm::full;
-    std::optional<double> least_shell; ///< mean free paths: a medium whose largest shell is smaller gets none
+    std::optional<double> least_shell; ///< mean free paths: a medium whose largest shell is smaller gets no shells
 };
 
-/// One value of the scene's "integrator": its key, and the flag of the command line that replaces it.
+/// One value of the scene's "integrator": its key, and the command-line flag that replaces it.
 struct IntegratorKey {
     const char* key;
     const char* flag;

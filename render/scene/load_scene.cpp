@@ -55,7 +55,7 @@ const std::vector<SceneSwitch>& scene_switches()
     static const std::vector<SceneSwitch> switches = [] {
         std::vector<SceneSwitch> all{
             {"--size", "Size of the picture, WIDTHxHEIGHT", "film.size", size_json},
-            {"--aov", fmt::format("More channels: {}", fmt::join(aov_names.words(), ",")), "film.aov/-",
+            {"--aov", fmt::format("Additional channels: {}", fmt::join(aov_names.words(), ",")), "film.aov/-",
              comma_separated},
         };
         for (const IntegratorKey& key : integrator_keys()) {

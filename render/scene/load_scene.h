@@ -8,31 +8,32 @@
 
 namespace scree {
 
-/// A value that replaces one of the scene's.
+/// A value that replaces a value of the scene.
 struct SceneOverride {
-    std::string path; ///< in the scene, such as camera.fov; a list grows at "film.aov/-"
-    std::string json; ///< the value; a bare word is a text
-    std::string flag; ///< of the command line, for messages; empty: -D
+    std::string path; ///< in the scene, such as camera.fov; "film.aov/-" appends to a list
+    std::string json; ///< the value; a bare word is a string
+    std::string flag; ///< the command-line flag, for messages; empty: -D
 };
 
-/// A flag of the command line that replaces a value of the scene, as -D does.
+/// A command-line flag that replaces a value of the scene, as -D does.
 struct SceneSwitch {
     std::string flag, help;
     std::string path; ///< of the value in the scene
-    std::vector<std::string> (*to_json)(const std::string& text); ///< the text as values
+    std::vector<std::string> (*to_json)(const std::string& text); ///< the JSON values of the flag's text
 
-    /// What a text given with the flag replaces. Throws InputError that names the flag.
+    /// The values that the flag replaces when given `text`. Throws InputError that names the flag.
     std::vector<SceneOverride> overrides(const std::string& text) const;
 };
 
-/// Every such flag: those of the integrator, --size and --aov.
+/// All such flags: --size, --aov and those of the integrator.
 const std::vector<SceneSwitch>& scene_switches();
 
-/// What the flag and its text replace; the flag must be one of scene_switches(). Throws InputError.
+/// The values that `flag`, one of scene_switches(), replaces when given `text`. Throws InputError.
 std::vector<SceneOverride> switch_overrides(const std::string& flag, const std::string& text);
 
-/// Reads a scene file with values replaced: first those that make it another scene (-D), then those that say how it is
-/// rendered, which its hash leaves out as the transport plan has one of its own. Throws InputError.
+/// Reads a scene file and replaces values: first `overrides` (-D), which make it another scene, then `switches`, which
+/// say how to render it. The scene's hash leaves out the switches: the transport plan has its own hash. Throws
+/// InputError.
 SceneDescription load_scene(const std::filesystem::path& file, const std::vector<SceneOverride>& overrides = {},
                             const std::vector<SceneOverride>& switches = {});
 

@@ -13,7 +13,7 @@ std::vector<std::string> library_names()
     return names;
 }
 
-/// The shape by its name alone: the sphere, or one of the library.
+/// A shape given by its name only: the sphere, or a grain of the library.
 void read_named_shape(const JsonValue& shape, GrainTypeDescription& type)
 {
     if (!shape.is_string()) shape.fail("\"sphere\", a name of the library, {\"mesh\": FILE} or {\"library\": NAME}");

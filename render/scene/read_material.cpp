@@ -9,7 +9,7 @@ const EnumNames<MaterialKind> material_names{{MaterialKind::lambert, "lambert"},
                                              {MaterialKind::dielectric, "dielectric"},
                                              {MaterialKind::conductor, "conductor"}};
 
-constexpr double largest = std::numeric_limits<float>::max(); // of what is kept as float
+constexpr double largest = std::numeric_limits<float>::max(); // of values that are stored as float
 
 /// The GGX width of a roughness 0..1: its square, as in Blender and glTF.
 double read_alpha(JsonObject& object)
@@ -43,7 +43,7 @@ Material read_material(const JsonValue& json)
         material.alpha = read_alpha(object);
         material.absorption = read_rgb(object, "absorption", Color(0), 0, largest);
         material.tint = read_rgb(object, "tint", Color(1), 0, 1);
-        if (material.ior == 1) material.alpha = 0; // nothing to be rough
+        if (material.ior == 1) material.alpha = 0; // without an interface there is no roughness
         break;
     }
     case MaterialKind::conductor:

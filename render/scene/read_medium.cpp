@@ -6,7 +6,7 @@ namespace scree {
 
 namespace {
 
-constexpr double largest = std::numeric_limits<float>::max(); // of what is kept as float
+constexpr double largest = std::numeric_limits<float>::max(); // of values that are stored as float
 
 } // namespace
 
@@ -40,7 +40,7 @@ MediumDescription read_medium(const JsonValue& json)
         if (g->is_string() && vdb)
             medium.g_grid = g->string();
         else if (medium.g = g->number(-1, 1); std::abs(medium.g) == 1)
-            g->fail("a number above -1 and below 1"); // scattering would have no density
+            g->fail("a number above -1 and below 1"); // the phase function would have no density
     }
     object.done();
     return medium;

@@ -5,7 +5,7 @@
 
 namespace scree {
 
-/// A medium from its JSON object (render/scene/scene.schema.json says what it may hold). Throws InputError.
+/// A medium from its JSON object (keys: render/scene/scene.schema.json). Throws InputError.
 MediumDescription read_medium(const JsonValue& json);
 
 } // namespace scree

@@ -24,7 +24,7 @@ const EnumNames<LightDescription::Kind> light_names{{LightDescription::Kind::con
                                                     {LightDescription::Kind::rectangle, "rectangle"},
                                                     {LightDescription::Kind::sphere, "sphere"}};
 
-constexpr double largest = std::numeric_limits<float>::max(); // of what is kept as float
+constexpr double largest = std::numeric_limits<float>::max(); // of values that are stored as float
 
 /// A number > 0.
 double read_positive(const JsonValue& value)
@@ -49,10 +49,10 @@ CameraDescription read_camera(const JsonValue& json)
     camera.origin = object.require("origin").vec3();
     const JsonValue target = object.require("target");
     camera.target = target.vec3();
-    if (!((camera.target - camera.origin).length2() > 0)) target.fail("a target away from the origin");
+    if (!((camera.target - camera.origin).length2() > 0)) target.fail("a target that differs from the origin");
     if (const auto up = object.find("up")) camera.up = read_direction(*up);
     if (!((camera.target - camera.origin).cross(camera.up).length2() > 0)) {
-        throw InputError(json.place(), "an 'up' along the view", "an 'up' across the view",
+        throw InputError(json.place(), "an 'up' parallel to the view", "an 'up' not parallel to the view",
                          "set \"up\" to another axis");
     }
     if (camera.kind == CameraKind::perspective) {
@@ -158,7 +158,7 @@ SurfaceDescription read_surface(const JsonValue& json)
     return surface;
 }
 
-/// The dump's type numbers are the keys.
+/// The type number of the dump in a JSON key.
 int32_t read_type_number(const std::string& key, const JsonValue& where)
 {
     int32_t number = 0;
@@ -179,8 +179,8 @@ void check_type_name(const std::string& name, const std::vector<GrainTypeDescrip
                nearest.empty() ? "" : nearest.substr(2));
 }
 
-/// by_type: whether each sphere must say its type, as the mixture is explicit and has no map of its own.
-/// The map from type numbers of a dump or tile to grain types.
+/// Reads the map from type numbers of a dump or tile to grain types. by_type: whether each sphere must give its type,
+/// because the mixture is explicit and has no map of its own.
 void read_file_types(JsonObject& object, const std::vector<GrainTypeDescription>& types, bool by_type,
                      AssemblyDescription& assembly)
 {
@@ -222,7 +222,7 @@ void read_listed_spheres(const JsonValue& list, const std::vector<GrainTypeDescr
             sphere.type = type->string();
             check_type_name(sphere.type, types, *type);
         } else if (by_type && types.size() != 1) {
-            item.fail("the key 'type', as there are several grain types");
+            item.fail("the key 'type', because there are several grain types");
         }
         entry.done();
         assembly.spheres.push_back(sphere);

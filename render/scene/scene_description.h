@@ -24,14 +24,14 @@ struct FilmDescription {
     std::vector<Aov> aov;
 };
 
-/// A light as the scene file has it, in the scene's unit.
+/// A light of the scene file, in the scene's unit.
 struct LightDescription {
     enum class Kind : uint8_t { constant, environment, distant, rectangle, sphere } kind = Kind::constant;
     Color radiance{1}; ///< constant, rectangle, sphere
     std::filesystem::path file; ///< environment
     Color scale{1}; ///< environment
     V3d up{0, 0, 1}; ///< environment
-    V3d direction{0, 0, -1}; ///< distant: in which the light travels
+    V3d direction{0, 0, -1}; ///< distant: direction in which the light travels
     Color irradiance{1}; ///< distant: on a plane facing it
     double angle = 0.53; ///< distant: angular diameter, degrees
     V3d corner{0}, edge1{0}, edge2{0};
@@ -48,70 +48,70 @@ struct SurfaceDescription {
 
 struct GrainTypeDescription {
     std::string name;
-    std::optional<std::filesystem::path> mesh; ///< of the user
-    const LibraryGrain* library = nullptr; ///< of the library; neither, or one of no triangles: a sphere
-    ShapeOptions shape; ///< of the library's mesh
+    std::optional<std::filesystem::path> mesh; ///< the user's mesh
+    const LibraryGrain* library = nullptr; ///< without triangles, or null and no mesh: a sphere
+    ShapeOptions shape; ///< options of the library's mesh
     Material material; ///< absorption per unit of length of the scene
     std::string place;
 
-    /// Whether its shape is a mesh rather than the bounding sphere.
+    /// Whether the shape is a mesh rather than the bounding sphere.
     bool has_mesh() const { return mesh || (library && (library->default_triangles > 0 || shape.triangles > 0)); }
 };
 
-/// Where the grains come from: a dump, a mesh filled with a tile, or spheres written out in the scene.
+/// Where the grains come from: a dump, a mesh filled with a tile, or spheres listed in the scene.
 struct AssemblyDescription {
     struct Sphere {
         V3d center;
         double radius;
-        std::string type; ///< name of a grain type; empty: the only one
+        std::string type; ///< name of a grain type; empty: the only grain type
     };
-    /// A mesh full of the spheres of a repeated tile.
+    /// A mesh filled with the spheres of a repeated tile.
     struct Fill {
         std::filesystem::path mesh, tile;
         double radius = 0; ///< mean radius of the spheres
-        uint64_t seed = 0; ///< of which variant of the tile stands where
+        uint64_t seed = 0; ///< chooses the tile's variant at each place
         bool repair = false;
     };
-    std::string dump; ///< file, glob or printf pattern (or .vdb of points); else empty
+    std::string dump; ///< file, glob or printf pattern (or .vdb of points); empty without a dump
     std::optional<Fill> fill;
-    std::map<int32_t, std::string> types; ///< the dump's or tile's type number -> name of a grain type
+    std::map<int32_t, std::string> types; ///< type number in the dump or tile -> name of a grain type
     std::optional<double> radius; ///< for dumps without a radius column
     std::map<int32_t, double> radius_of_type;
     std::vector<Sphere> spheres;
     std::string place;
 };
 
-/// A medium that the scene names: the same within a mesh, or varying as a file of OpenVDB grids has it.
+/// A medium named by the scene: uniform inside a mesh, or varying as given by a file of OpenVDB grids.
 struct MediumDescription {
-    std::filesystem::path mesh, vdb; ///< one of them
-    Color sigma_t{1}; ///< mesh: extinction per unit of length; vdb: the same for a density of 1
+    std::filesystem::path mesh, vdb; ///< exactly one of them is set
+    Color sigma_t{1}; ///< extinction per unit of length; vdb: where the density is 1
     Weight albedo{1};
-    double g = 0; ///< of Henyey and Greenstein
+    double g = 0; ///< mean cosine of the Henyey-Greenstein phase function
     std::string density = "density"; ///< vdb: names of grids
-    std::string albedo_grid, g_grid; ///< vdb: empty where it is the same everywhere
+    std::string albedo_grid, g_grid; ///< vdb: empty if albedo or g is the same everywhere
     bool nearest = false; ///< vdb: no interpolation between voxels
 };
 
-/// A scene file, read and checked, with paths made absolute; nothing it names has been opened yet.
+/// A scene file, read and checked, with absolute paths; the files it names have not been opened yet.
 struct SceneDescription {
     std::filesystem::path file;
-    std::string canonical; ///< the JSON without layout: what the scene hash covers
+    std::string canonical; ///< the JSON without layout, covered by the scene hash
     CameraDescription camera;
     FilmDescription film;
     std::vector<LightDescription> lights;
     std::vector<SurfaceDescription> surfaces;
     std::vector<GrainTypeDescription> types; ///< in order of name
-    double metres_per_unit = 1e-3; ///< what the scene's unit of length is to the library's materials
+    double metres_per_unit = 1e-3; ///< the scene's unit of length, for the library's materials
     std::optional<AssemblyDescription> assembly;
-    MixtureDescription mixture{ExplicitDescription{}, {}, {}}; ///< which grain type each sphere is
+    MixtureDescription mixture{ExplicitDescription{}, {}, {}}; ///< gives each sphere its grain type
     std::vector<MediumDescription> media;
     IntegratorDescription integrator;
 };
 
-/// Checks and takes over every key. Throws InputError naming file and JSON path.
+/// Checks and reads every key. Throws InputError that names the file and the JSON path.
 SceneDescription read_scene(const JsonDocument& document, const std::filesystem::path& file);
 
-/// A material from its JSON object (render/scene/scene.schema.json says what it may hold).
+/// A material from its JSON object (keys: render/scene/scene.schema.json). Throws InputError.
 class JsonValue;
 Material read_material(const JsonValue& json);
 

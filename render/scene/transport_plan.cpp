@@ -10,18 +10,18 @@ namespace scree {
 
 namespace {
 
-/// Fewer than these are traced as they are: what proxies and a medium need would take longer to make than it saves.
+/// Fewer grains are all traced as explicit geometry: proxies and a medium would take longer to prepare than they save.
 constexpr uint64_t few_grains = 2000;
 
-/// Light that meets fewer than these is followed from grain to grain sooner than through a medium.
+/// Light that hits fewer grains is traced faster from grain to grain than through a medium.
 constexpr double few_encounters = 4;
 
-/// Where the largest shell has fewer mean free paths, few paths come to where it fits, and what shells are made of
-/// costs more than they save.
+/// If the largest shell has fewer mean free paths, few paths reach places where it fits, and the tables of the shells
+/// cost more than they save.
 constexpr double worthwhile_shell = 8;
 
-/// A medium pays where there is more of it than of the grains above.
-constexpr double least_core = 1.5; ///< half the least extent of the grains, in depths
+/// A medium saves work if it has more volume than the grains above it.
+constexpr double least_core = 1.5; ///< half the smallest extent of the grains, in depths of the medium
 
 double half_thickness(const GrainFacts& facts)
 {
@@ -31,12 +31,12 @@ double half_thickness(const GrainFacts& facts)
 
 std::string proxies_after(uint32_t grains)
 {
-    if (grains == 0) return "proxies stand for grains";
-    return grains == 1 ? "proxies stand for all grains but the first of a path"
-                       : fmt::format("proxies stand for all grains but the first {} of a path", grains);
+    if (grains == 0) return "proxies replace every grain";
+    return grains == 1 ? "proxies replace all grains except the first of a path"
+                       : fmt::format("proxies replace all grains except the first {} of a path", grains);
 }
 
-/// How large the largest grain can look at most, in pixels.
+/// Upper bound on the width of the largest grain in the picture, in pixels.
 double largest_in_pixels(const CameraDescription& camera, const FilmDescription& film, const GrainFacts& facts)
 {
     const V3d view = (camera.target - camera.origin).normalized();
@@ -99,8 +99,7 @@ double rough_loss(const Material& material, double radius)
     case MaterialKind::lambert: return 1 - max_component(material.reflectance);
     case MaterialKind::dielectric: {
         const Real least = std::min({material.absorption.x, material.absorption.y, material.absorption.z});
-        const double within =
-            4.0 / 3 * 1.3 * radius; // a mean chord, and half of another on the way that light takes by reflections
+        const double within = 4.0 / 3 * 1.3 * radius; // the mean chord of a sphere, lengthened by reflections inside it
         return 1 - max_component(material.tint) * std::exp(-least * within);
     }
     case MaterialKind::conductor: return 1 - 0.9 * max_component(material.tint);
@@ -119,7 +118,7 @@ TransportPlan plan_transport(const IntegratorDescription& integrator, const Came
     plan.has_grains = facts.count > 0;
     plan.why_no_medium = "the integrator traces grains everywhere";
     switch (integrator.kind) {
-    case IntegratorKind::ept: plan.why = "every grain as it is"; break;
+    case IntegratorKind::ept: plan.why = "every grain is traced as explicit geometry"; break;
     case IntegratorKind::ppt:
         plan.explicit_grains = integrator.explicit_grains.value_or(0);
         plan.least_pixels = integrator.grain_pixels.value_or(0);
@@ -128,18 +127,19 @@ TransportPlan plan_transport(const IntegratorDescription& integrator, const Came
     case IntegratorKind::stf:
     case IntegratorKind::vpt:
         plan.has_grain_medium = plan.replaces_all = plan.has_grains;
-        plan.why = "a medium stands for all grains";
+        plan.why = "a medium replaces all grains";
         break;
     case IntegratorKind::automatic: {
         const AccuracyLevel& level = level_of(integrator.accuracy);
         plan.depth_radii = level.depth_radii;
         plan.depth_flights = level.depth_flights;
         if (integrator.accuracy == Accuracy::reference)
-            plan.why = "every grain as it is: the accuracy is that of a reference";
+            plan.why = "every grain is traced as explicit geometry: the accuracy is reference";
         else if (facts.count < few_grains)
-            plan.why = fmt::format("every grain as it is: there are fewer than {}", few_grains);
+            plan.why = fmt::format("every grain is traced as explicit geometry: there are fewer than {}", few_grains);
         else if (facts.encounters() < few_encounters)
-            plan.why = fmt::format("every grain as it is: light meets some {:.2g} of them before it is absorbed",
+            plan.why = fmt::format("every grain is traced as explicit geometry: light hits about {:.2g} grains before "
+                                   "it leaves or is absorbed",
                                    facts.encounters());
         else {
             plan.explicit_grains = level.explicit_grains;
@@ -148,14 +148,14 @@ TransportPlan plan_transport(const IntegratorDescription& integrator, const Came
             if (const double pixels = largest_in_pixels(camera, film, facts);
                 plan.explicit_grains > 0 && pixels < plan.least_pixels) {
                 plan.explicit_grains = 0;
-                plan.why = fmt::format("{}: the largest looks {:.2g} pixels wide", proxies_after(0), pixels);
+                plan.why = fmt::format("{}: the largest looks only {:.2g} pixels wide", proxies_after(0), pixels);
             } else if (plan.explicit_grains == 0) {
-                plan.why = proxies_after(0) + ": the accuracy is that of a draft";
+                plan.why = proxies_after(0) + ": the accuracy is draft";
             }
             plan.has_grain_medium = half_thickness(facts) > least_core * plan.depth_radii * facts.mean_radius;
-            plan.why_no_medium = fmt::format("hardly a grain is {:g} mean radii deep", plan.depth_radii);
+            plan.why_no_medium = fmt::format("few grains lie {:g} mean radii deep", plan.depth_radii);
         }
-        if (integrator.explicit_grains) { // as they are, then, however small they look, unless that is asked for too
+        if (integrator.explicit_grains) { // explicit, however small they look, unless grain_pixels is set too
             plan.explicit_grains = *integrator.explicit_grains;
             plan.least_pixels = integrator.grain_pixels.value_or(0);
             plan.why = proxies_after(plan.explicit_grains) + ", as asked for";

@@ -9,59 +9,59 @@
 
 namespace scree {
 
-/// What is known of a scene's grains before anything is made of them; lengths in the scene's unit.
+/// What is known about a scene's grains before anything is built; lengths in the scene's unit.
 struct GrainFacts {
     uint64_t count = 0;
     double mean_radius = 0, largest_radius = 0;
-    Imath::Box3d bounds; ///< around all of them
-    /// Part of the light that a grain they have absorbs in the mean, about, in the brightest channel; weighed by
-    /// cross-section.
+    Imath::Box3d bounds; ///< of all grains
+    /// About the mean fraction of light that a grain absorbs, in the brightest channel, weighted by cross-section.
     double loss = 0;
 
-    /// How many grains light meets among them in the mean, about, before it is back out or absorbed: 1 / sqrt(1 -
-    /// albedo), of an isotropic half-space.
+    /// About the mean number of grains that light hits before it leaves or is absorbed: 1 / sqrt(1 - albedo), as in an
+    /// isotropic half-space.
     double encounters() const { return 1 / std::sqrt(std::max(loss, 1e-12)); }
 };
 
-/// What a grain of a material absorbs in its brightest channel, about; radius in the unit of the absorption.
+/// About the fraction of light that a grain absorbs in its brightest channel; radius in the unit of the absorption.
 double rough_loss(const Material& material, double radius);
 
-/// How light is traced among a scene's grains and media: every switch, as the integrator and its accuracy have set it
-/// or the user has.
+/// How light is traced through a scene's grains and media: every switch, as set by the integrator, its accuracy or the
+/// user.
 struct TransportPlan {
     IntegratorKind kind = IntegratorKind::ept;
     Accuracy accuracy = Accuracy::standard;
-    bool has_grains = false; ///< the scene has any
-    uint32_t explicit_grains = all_grains; ///< grains of a path that are traced as they are; further ones are proxies
-    double least_pixels = 0; ///< grains that look smaller in the picture are proxies from the first on
-    bool has_grain_medium = false; ///< a medium stands for some grains,
-    bool replaces_all = false; ///< or for all
-    double depth_radii = 0,
-           depth_flights = 0; ///< below every face it begins: mean radii, but not fewer mean flights of the medium
+    bool has_grains = false; ///< the scene has at least one grain
+    uint32_t explicit_grains = all_grains; ///< grains of a path traced as explicit geometry; further ones are proxies
+    double least_pixels = 0; ///< if a path's first grain looks narrower in the picture, all are proxies
+    bool has_grain_medium = false; ///< a medium replaces some grains,
+    bool replaces_all = false; ///< or all grains
+    double depth_radii = 0; ///< depth below every face at which the medium begins: mean radii,
+    double depth_flights = 0; ///< but no fewer mean free paths of the medium
     EquivalentForm medium_form = EquivalentForm::decay;
-    bool has_shells = false; ///< light goes through shells in media
+    bool has_shells = false; ///< light crosses media in shells
     StfForm stf_form = StfForm::full;
-    double least_shell = 1; ///< mean free paths: of the largest in a medium, else it gets none
-    bool shells_must_pay = false; ///< a medium of grids gets none where walks in it do not show that they save work
-    std::string why; ///< why grains are taken in this way
-    std::string why_no_medium; ///< empty where a medium stands for grains
+    double least_shell = 1; ///< mean free paths: a medium whose largest shell is smaller gets no shells
+    bool shells_must_pay = false; ///< a medium of grids gets shells only if trial walks show that shells save work
+    std::string why; ///< why grains are traced in this way
+    std::string why_no_medium; ///< empty if a medium replaces grains
 
     bool has_proxies() const { return has_grains && explicit_grains != all_grains && !replaces_all; }
-    /// Whether a path can meet grains as they are.
+    /// Whether a path can hit grains that are explicit geometry.
     bool has_exemplars() const { return has_grains && explicit_grains > 0 && !replaces_all; }
     bool needs_gsdfs() const { return has_proxies() || has_grain_medium; }
-    /// In a word for a picture's header: what it does, for auto.
+    /// The integrator's name for a picture's header; "ept" if auto only does what ept does.
     std::string name() const;
 };
 
-/// Hash of all that makes one plan's samples others than another's, as a checkpoint must tell: every switch of what the
-/// plan has, none of what it lacks.
+/// Hash of everything in a plan that changes its samples, for checkpoints: the switches of what the plan has, not of
+/// what it lacks.
 uint64_t hash_plan(const TransportPlan& plan);
 
-/// Decides. Facts of no grains: the scene has none.
+/// Chooses the transport plan. Facts with a count of 0: the scene has no grains.
 TransportPlan plan_transport(const IntegratorDescription& integrator, const CameraDescription& camera,
                              const FilmDescription& film, const GrainFacts& facts);
 
+/// Width of one pixel of the film, in the scene's unit.
 PixelSize pixel_size(const CameraDescription& camera, const FilmDescription& film);
 
 } // namespace scree

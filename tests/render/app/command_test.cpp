@@ -1,4 +1,4 @@
-// `scree render` as a user meets it: the built program, its exit codes, messages and files.
+// `scree render` as a user sees it: the built program, its exit codes, messages and files.
 
 #include "render/app/render_command.h"
 #include "tests/builders/scene_files.h"
@@ -29,7 +29,7 @@ protected:
     }
     std::string path(const std::string& name) const { return folder_.path(name).string(); }
     bool exists(const std::string& name) const { return std::filesystem::exists(folder_.path(name)); }
-    /// All files in the folder, one a line: to see that nothing was left behind.
+    /// The names of all files in the folder, to check that nothing was left behind.
     std::string files() const
     {
         std::vector<std::string> names;
@@ -131,7 +131,7 @@ TEST_F(Command, StatisticsAreText)
 
 TEST_F(Command, ReplaysASample)
 {
-    // Of one sample a pixel the picture is that sample.
+    // With one sample per pixel, the picture is that sample.
     const Picture picture = render_picture(scene_, [](RenderJob& job) { job.spp = 1; });
     std::filesystem::remove(path("out.exr"));
     for (const auto& [x, y] : {std::pair{20, 15}, {39, 0}}) {
@@ -206,7 +206,7 @@ TEST_F(Command, OverridesTheScene)
     EXPECT_EQ(read_picture(path("out.exr")).width(), 8);
     ASSERT_EQ(render({"-q", "--size", "9x5"}).status, 0);
     EXPECT_EQ(read_picture(path("out.exr")).height(), 5);
-    // A bare word is a text.
+    // A bare word is a string.
     EXPECT_EQ(render({"--plan", "-D", "integrator.kind=ept"}).status, 0);
 }
 
@@ -217,7 +217,7 @@ TEST_F(Command, TimeoutStopsInTime)
     EXPECT_GT(run.seconds, 1);
     EXPECT_LT(run.seconds, 3);
     EXPECT_GE(read_picture(path("out.exr")).numbers.at("spp"), 1);
-    EXPECT_FALSE(exists("out.exr.checkpoint")) << "without --spp there is nothing to go on to";
+    EXPECT_FALSE(exists("out.exr.checkpoint")) << "without --spp there is nothing to continue";
     const ProgramRun cut =
         run_scree({"render", scene_, "-o", path("out.exr"), "--size", "320x240", "--timeout", "1", "--spp", "1000000"});
     EXPECT_EQ(cut.status, 0);
@@ -226,7 +226,7 @@ TEST_F(Command, TimeoutStopsInTime)
     EXPECT_TRUE(exists("out.exr.checkpoint"));
 }
 
-// Ctrl-C writes what there is; --resume completes it to the bit.
+// Ctrl-C writes the samples so far; --resume completes them to the same bits.
 TEST_F(Command, InterruptedAndResumedIsTheSameAsInOneGo)
 {
     const std::vector<std::string> base{"render", scene_, "--size", "120x90", "-o", path("out.exr")};
@@ -234,7 +234,7 @@ TEST_F(Command, InterruptedAndResumedIsTheSameAsInOneGo)
         more.insert(more.begin(), base.begin(), base.end());
         return more;
     };
-    // As many samples as take some seconds on this machine.
+    // Enough samples for some seconds on this machine.
     ASSERT_EQ(run_scree(with({"-q", "--timeout", "0.3"})).status, 0);
     const auto spp = std::to_string(std::max(8, static_cast<int>(4 * read_picture(path("out.exr")).numbers.at("spp"))));
     const ProgramRun stopped = run_scree(with({"--spp", spp}), "rendering", 0.2);
@@ -275,16 +275,16 @@ TEST_F(Command, InterruptedFilmKeepsTheFramesBefore)
 
 struct WrongCall {
     std::vector<std::string> arguments;
-    std::string message; ///< a part of it
+    std::string message; ///< a substring of the message
 };
 
-/// The render command in this process (a start of the program takes a third of a second): the message of what it
-/// throws.
+/// Runs the render command in this process (starting the program takes a third of a second) and returns its error
+/// message.
 std::string message_of(std::vector<std::string> arguments)
 {
     CLI::App app;
     add_render_command(app);
-    std::reverse(arguments.begin(), arguments.end()); // as CLI11 wants them
+    std::reverse(arguments.begin(), arguments.end()); // the order that CLI11 expects
     try {
         app.parse(arguments);
     } catch (const CLI::Error& error) {

@@ -1,4 +1,4 @@
-// A fill renders as the list of its spheres does, to the bit; and it is a scene like any other.
+// A fill renders to the same bits as the list of its spheres, and behaves like any other scene.
 
 #include "ingest/particles/vdb_point_stream.h"
 #include "packing/fill/list_fill.h"

@@ -1,4 +1,4 @@
-// What a scene becomes: render coordinates that keep their precision, and input that is refused or turned round.
+// Building a scene: render coordinates keep their precision; bad input is refused, and inward meshes are turned.
 
 #include "render/build/world_builder.h"
 
@@ -30,8 +30,9 @@ std::string scene_with(const std::string& rest)
     return R"({"camera": {"origin": [0, -5, 0], "target": [0, 0, 0]}, )" + rest + "}";
 }
 
-// 100 grains of radius 0.3 in a line-up of 10 x 10, and one more: the distance of neighbours in radii must come out as
-// it is, wherever the one has gone. In the bounds' middle a float would keep it to 0.1 (at 3e6) or not at all (at 3e8).
+// 100 grains of radius 0.3 in a 10 x 10 lattice, and one more grain far away. The distance of neighbours in radii must
+// be right wherever the one grain is. With the bounds' middle as origin, a float would keep the distance to 0.1 (at
+// 3e6) or not at all (at 3e8).
 TEST(WorldBuilder, RunawayGrainLeavesTheOthersTheirPrecision)
 {
     for (const double away : {3.0, 3e6, 3e8}) {

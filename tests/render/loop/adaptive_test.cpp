@@ -1,4 +1,4 @@
-// Rendering up to an error: what is drawn decides how much is drawn, and the picture must not show it.
+// Rendering up to an error: the samples decide how many samples are drawn, and this must not bias the picture.
 
 #include "base/sampler.h"
 #include "render/film/checkpoint.h"
@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-/// A sample of mean 1: a half, and with probability p what is missing.
+/// A sample of mean 1: 0.5, and with probability p also 0.5 / p.
 struct RareLight {
     double p;
     Color operator()(Sampler& sampler) const
@@ -34,7 +34,7 @@ void draw(Film& film, int tile, const std::array<uint32_t, 2>& each, uint64_t se
                 Sampler sampler(seed, static_cast<uint32_t>(x), static_cast<uint32_t>(y), *s);
                 const Color radiance = light(sampler);
                 film.at(x, y).add(radiance, {});
-                state.work[*s & 1] += radiance.x > 1 ? 100 : 1; // light is dear to find
+                state.work[*s & 1] += radiance.x > 1 ? 100 : 1; // bright samples cost more
                 halves.note_drawn(*s);
                 halves.add(*s, radiance, state.counts);
             }
@@ -42,7 +42,7 @@ void draw(Film& film, int tile, const std::array<uint32_t, 2>& each, uint64_t se
     }
 }
 
-/// As `render` does, of samples that cost nothing; false when the limit of samples was met.
+/// Does what `render` does, but with samples that cost no time; false when the limit of samples was reached.
 bool draw_to_error(Film& film, double error, uint32_t most, uint64_t seed, const RareLight& light)
 {
     film.keep_halves();
@@ -65,7 +65,7 @@ bool draw_to_error(Film& film, double error, uint32_t most, uint64_t seed, const
     return true;
 }
 
-/// The rule that suggests itself: a tile stops at the first level at which its own samples say that it may.
+/// The obvious rule, which is biased: a tile stops at the first level at which its own samples allow it.
 double naive_mean(double error, uint32_t most, uint64_t seed, const RareLight& light)
 {
     Film film(64, 64, 0, 0, 64, 64);
@@ -187,18 +187,19 @@ TEST(Adaptive, GivesTilesByTheRootOfTheirVarianceAndLooksAround)
         states.level = AdaptivePlan::least_samples(0.05);
         plan.decide();
     };
-    decide(1); // a sighting or so a tile
+    decide(1); // about one sighting per tile
     EXPECT_TRUE(states.tiles[0].counts.going()) << "a quiet tile beside a noisy one";
     EXPECT_TRUE(states.tiles[3].counts.going());
-    EXPECT_FALSE(states.tiles[4].counts.going()) << "nothing there nor around";
+    EXPECT_FALSE(states.tiles[4].counts.going()) << "nothing there, nor in the tiles around";
     decide(0.01);
-    EXPECT_FALSE(states.tiles[0].counts.going()) << "what is surely quiet";
+    EXPECT_FALSE(states.tiles[0].counts.going()) << "surely quiet";
     EXPECT_TRUE(states.tiles[1].counts.going());
 }
 
 TEST(Adaptive, GivesTilesByTheRootOfWhatTheirSamplesCost)
 {
-    // Wanted of each half at 5 %: (1 + 2) / 2 / sqrt(work) / (2 * 0.05^2), 300 and 150, decided by half as many.
+    // Samples wanted of each half at 5 %: (1 + 2) / 2 / sqrt(work) / (2 * 0.05^2), 300 and 150, decided by half as
+    // many.
     for (const uint32_t level : {70, 80, 140, 160, 310}) {
         TileStates states;
         states.tiles.resize(2);
@@ -297,7 +298,7 @@ TEST(Adaptive, KeepsInACheckpointWhatItDecidesBy)
     EXPECT_EQ(again.tile_states().tiles[0].estimates[1].work, 5);
 }
 
-// What a half sees has no say in how many of its own samples count, only in how many of the other's.
+// The samples of a half must not decide how many of its own samples count, only how many of the other half's.
 TEST(Adaptive, CountsOfAHalfDoNotDependOnWhatItSaw)
 {
     const auto counts = [](bool brighter) {
@@ -368,7 +369,7 @@ TEST(Adaptive, IsTheSamePictureWithAnyThreadsAndResumed)
     EXPECT_FALSE(std::filesystem::exists(checkpoint));
     part(1, 1e-9, false, 21);
     part(1, 1e-9, true, 2);
-    EXPECT_TRUE(std::filesystem::exists(checkpoint)) << "of a limit that was not reached in time";
+    EXPECT_TRUE(std::filesystem::exists(checkpoint)) << "the limit was not reached in time";
     const Picture limited = part(1, 0, false, 21);
     EXPECT_EQ(*std::ranges::max_element(limited.integers.at("samples")), 20u) << "both halves alike";
 }

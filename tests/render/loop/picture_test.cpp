@@ -1,4 +1,4 @@
-// What must not change a picture: threads, crops, scale, place, order of rows, grains of no size.
+// Changes that must not change a picture: threads, crops, scale, place, order of rows, grains of radius 0.
 
 #include "tests/builders/scene_files.h"
 #include "tests/builders/shapes.h"
@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-/// The standard scene's picture, which most tests compare with.
+/// The standard scene's picture, with which most tests compare.
 const Picture& standard_picture()
 {
     static const Picture picture = [] {
@@ -145,9 +145,10 @@ TEST(PictureFarAway, IsTheSameToTheBitWhereTheInputIsExact)
     EXPECT_EQ(difference(picture_of(files), standard_picture()), "");
 }
 
-// With arbitrary digits the input itself is rounded to 2^-30 of a unit at 1e7. A path is a chaotic thing: a fraction of
-// paths comes out different, as other samples of the same picture. So the bound on the mean is 4 standard errors of the
-// paired difference of the pixels, which must itself be below a thousandth of the mean, and pixels must correlate.
+// With arbitrary digits the input itself is rounded to 2^-30 of a unit at 1e7. Paths are chaotic, so a fraction of them
+// changes into other samples of the same picture. So the bound on the mean is 4 standard errors of the paired
+// difference of the pixels; the standard error must itself be below a thousandth of the mean, and pixels must
+// correlate.
 TEST(PictureFarAway, IsTheSameWithinTheRoundingOfItsInput)
 {
     SceneFiles near = standard_scene();
@@ -185,7 +186,7 @@ TEST(Picture, DoesNotFollowTheOrderOfRows)
 
 TEST(Picture, FollowsIdentity)
 {
-    // The same spheres with other ids: other rotations of the meshes, everything else as it was.
+    // The same spheres with other ids: the meshes have other rotations, everything else is the same.
     SceneFiles files = standard_scene();
     for (DumpGrain& g : files.frames[0]) g.id += 1000;
     const Picture picture = picture_of(files);
@@ -235,7 +236,7 @@ TEST_P(PictureWith, TinyGrainIsTheSameAsWithout)
     EXPECT_EQ(difference(picture_of(files), standard_picture()), "");
 }
 
-/// The id channel left out: which of two coincident grains is seen is a matter of taste.
+/// Without the id channel: either of two coincident grains may be the visible one.
 Picture without_ids(Picture picture)
 {
     picture.integers.erase("id");
@@ -264,7 +265,7 @@ TEST_P(PictureWith, CoincidentGrainsAreTheSameAsOne)
     EXPECT_EQ(difference(without_ids(twins), without_ids(one)), "");
 }
 
-// Of coincident grains of different types one is seen, and the same one everywhere.
+// One of two coincident grains of different types is visible, and it is the same one everywhere.
 TEST(Picture, CoincidentGrainsOfTwoTypesAreOneOfThem)
 {
     SceneFiles files = standard_scene();
@@ -297,8 +298,7 @@ TEST(Picture, OfNothingButGrainsOfNoSizeIsTheBackground)
 TEST(PictureFrames, GrainKeepsItsRotationWhenItsRowChanges)
 {
     const std::vector<DumpGrain> still = {{5, 2, V3d(-2, 0, 0), 1.0}, {7, 3, V3d(0), 1.2}, {9, 4, V3d(2, 0, 0), 1.0}};
-    // In the second frame rows are reversed, and a grain too small to see takes the first place: all indices move by
-    // one.
+    // In the second frame the rows are reversed, and a grain too small to see comes first: all indices move by one.
     const std::vector<DumpGrain> moved = {still[2], still[1], still[0], {1, 3, V3d(1, 0, 0), 1e-12}};
     SceneFiles files = standard_scene();
     files.frames = {still, moved, {{5, 2, V3d(-2, 0, 0), 1.0}, {8, 3, V3d(0), 1.2}, {9, 4, V3d(2, 0, 0), 1.0}}};

@@ -131,7 +131,7 @@ std::vector<PlanRow> plan_rows()
         planned("no medium", "nothing", stf, part, false, "there is no medium");
     planned("no map", "nothing", {}, "environment map", false, "no light has one");
     planned("no light", "nothing", {}, "light sampling", false, "the scene has no light");
-    planned("no grains", "nothing", {}, inside, false, "no path can be inside a grain and meet a surface");
+    planned("no grains", "nothing", {}, inside, false, "no path inside a grain can hit a surface");
     planned("a structure", "nothing", {}, "acceleration structure", true, "to be built by Embree");
     traced("a structure", "nothing", {}, "acceleration structure", true, "Embree");
     for (const std::string& channel : aov_names.words()) {
@@ -139,31 +139,31 @@ std::vector<PlanRow> plan_rows()
         planned("asked", "nothing", all_channels, "channels " + channel, true, "asked for");
     }
 
-    // Why grains are taken as they are, or are not.
-    planned("few", "ten", {}, "explicit grains", true, "every grain as it is: there are fewer than 2000");
-    planned("few", "ten", {}, "proxies", false, "every grain is traced as it is");
-    planned("ept", "ten", ept, "explicit grains", true, "every grain as it is");
-    planned("reference", "many", {"--accuracy", "reference"}, "explicit grains", true,
-            "the accuracy is that of a reference");
-    planned("dark", "many dark", {}, "explicit grains", true, "light meets some 1.4 of them");
-    planned("ppt", "ten", ppt, "explicit grains", false, "proxies stand for grains");
+    // Why grains are explicit geometry, or are not.
+    planned("few", "ten", {}, "explicit grains", true,
+            "every grain is traced as explicit geometry: there are fewer than 2000");
+    planned("few", "ten", {}, "proxies", false, "every grain is traced as explicit geometry");
+    planned("ept", "ten", ept, "explicit grains", true, "every grain is traced as explicit geometry");
+    planned("reference", "many", {"--accuracy", "reference"}, "explicit grains", true, "the accuracy is reference");
+    planned("dark", "many dark", {}, "explicit grains", true, "light hits about 1.4 grains");
+    planned("ppt", "ten", ppt, "explicit grains", false, "proxies replace every grain");
     planned("ppt", "ten", ppt, "proxies", true, "after 0 grains of a path");
     planned("ppt and grains", "ten", with(ppt, {"--explicit-grains", "2"}), "explicit grains", true,
-            "proxies stand for all grains but the first 2 of a path");
+            "proxies replace all grains except the first 2 of a path");
     planned("ppt and grains", "ten", with(ppt, {"--explicit-grains", "2"}), "proxies", true,
             "after 2 grains of a path");
     planned("bright", "many", large, "proxies", true, "after 1 grains of a path");
-    planned("bright", "many", large, "explicit grains", true, "proxies stand for all grains but the first of a path");
-    planned("draft", "many", draft, "explicit grains", false, "the accuracy is that of a draft");
+    planned("bright", "many", large, "explicit grains", true, "proxies replace all grains except the first of a path");
+    planned("draft", "many", draft, "explicit grains", false, "the accuracy is draft");
     planned("far", "many", far, "explicit grains", false, "pixels wide");
     planned("asked", "ten", with(draft, {"--explicit-grains", "3"}), "explicit grains", true,
             "the first 3 of a path, as asked for");
     planned("asked", "ten", with(draft, {"--explicit-grains", "0"}), "explicit grains", false,
-            "proxies stand for grains, as asked for");
-    planned("vpt", "bed", vpt, "explicit grains", false, "a medium stands for all grains");
-    planned("vpt", "bed", vpt, "proxies", false, "a medium stands for all grains");
+            "proxies replace every grain, as asked for");
+    planned("vpt", "bed", vpt, "explicit grains", false, "a medium replaces all grains");
+    planned("vpt", "bed", vpt, "proxies", false, "a medium replaces all grains");
 
-    // What is made of a type.
+    // What is built for a type.
     planned("spheres", "ten", {}, "exemplar 'a'", false, "its shape is the bounding sphere itself");
     planned("unused", "unused glass", {}, "exemplar 'b'", false, "no grain has this type");
     planned("unused", "unused glass", ppt, "gsdf 'b'", false, "no grain has this type");
@@ -177,24 +177,26 @@ std::vector<PlanRow> plan_rows()
     for (const char* part : {"exemplar 'c'", "gsdf 'c'"})
         planned("not in the mixture", "fill of a mixture", ppt, part, false, "no grain has this type");
     planned("in the mixture", "fill of a mixture", ppt, "gsdf 'b'", true, "to be traced");
-    planned("no proxies", "cubes", {}, "gsdf 'a'", false, "no grain is a proxy, and no medium stands for any");
+    planned("no proxies", "cubes", {}, "gsdf 'a'", false, "no grain is a proxy, and no medium replaces grains");
     for (const Arguments& how : {ppt, vpt, stf}) {
-        planned("only for gsdfs", "cubes", how, "exemplar 'a'", false, "no grain is traced as it is");
+        planned("only for gsdfs", "cubes", how, "exemplar 'a'", false, "no grain is traced as explicit geometry");
         planned("to be traced", "cubes", how, "gsdf 'a'", true, "to be traced to an error of 8 %; not in the cache");
     }
     for (const Arguments& how : {draft, far})
-        planned("never as they are", "many cubes", how, "exemplar 'a'", false, "no grain is traced as it is");
+        planned("never as they are", "many cubes", how, "exemplar 'a'", false,
+                "no grain is traced as explicit geometry");
     planned("the first", "many cubes", large, "exemplar 'a'", true, "12 triangles");
     traced("made once", "two colours", ppt, "gsdf 'a'", true, "traced, ");
-    traced("made once", "two colours", ppt, "gsdf 'b'", true, "made already, for another type or frame");
+    traced("made once", "two colours", ppt, "gsdf 'b'", true, "already made for another type or frame");
     traced("again", "ten", ppt, "gsdf 'a'", true, "from the cache, ");
     planned("again", "ten", with(ppt, {"--seed", "2"}), "gsdf 'a'", true, "from the cache, ");
     traced("grains", "ten", {}, "grains", true, "10 of 10 spheres read");
     const Arguments crop{"--cropwindow", "0,0.5,0,1"};
-    planned("crop", "ten", crop, "grains outside the crop", true, "kept: light may come by way of any");
-    traced("crop", "ten", crop, "grains outside the crop", true, "kept: light may come by way of any");
-    planned("crop", "fill", crop, "grains outside the crop", false, "none is listed: rays find those that they meet");
-    planned("crop", "bed", with(vpt, crop), "grains outside the crop", false, "a medium stands for all grains");
+    planned("crop", "ten", crop, "grains outside the crop", true, "kept: they may scatter light into the crop");
+    traced("crop", "ten", crop, "grains outside the crop", true, "kept: they may scatter light into the crop");
+    planned("crop", "fill", crop, "grains outside the crop", false,
+            "no grain is listed: rays find the grains they hit");
+    planned("crop", "bed", with(vpt, crop), "grains outside the crop", false, "a medium replaces all grains");
     planned("crop", "slab", crop, "grains outside the crop", false, "the scene has no grains");
     planned("fill", "fill", {}, "domain", true, "320 triangles, checked");
     planned("fill", "fill", {}, "tile", true, "tile.vdb: 64 spheres, 1 variants");
@@ -202,23 +204,23 @@ std::vector<PlanRow> plan_rows()
 
     // Surfaces and lights.
     planned("floor", "ten on a floor", {}, "surfaces", true, "1 meshes, 2 triangles");
-    planned("opaque", "ten on a floor", {}, inside, false, "no path can be inside a grain and meet a surface");
+    planned("opaque", "ten on a floor", {}, inside, false, "no path inside a grain can hit a surface");
     planned("glass", "glass on a floor", {}, inside, true, "a second structure of the surfaces");
     planned("through proxies", "ten on a floor", ppt, inside, true, "a second structure of the surfaces");
     planned("no grain left", "glass on a floor", vpt, inside, false, "no path");
     planned("unused glass", "unused glass", {}, inside, false, "no path");
-    planned("constant", "ten", {}, "light sampling", false, "only constant light");
+    planned("constant", "ten", {}, "light sampling", false, "only constant or black lights");
     planned("lamp", "lamp", {}, "light sampling", true, "next-event estimation");
     planned("map", "sky map", {}, "environment map", true, "sky.exr");
     traced("map", "sky map", {}, "environment map", true, "sky.exr");
 
-    // Media in the place of grains.
+    // Media that replace grains.
     planned("everywhere grains", "ten", {}, medium, false, "the integrator traces grains everywhere");
-    planned("thin", "thin", {}, medium, false, "hardly a grain is 4 mean radii deep");
+    planned("thin", "thin", {}, medium, false, "few grains lie 4 mean radii deep");
     planned("not as deep", "bed", with(ept, {"--grain-depth", "100"}), medium, false,
             "no place is 100 mean radii deep");
     planned("not as deep", "bed", with(ept, {"--grain-depth", "100"}), "gsdf 'a'", false, "no grain is a proxy");
-    planned("deep", "many", draft, medium, true, "to be made, where there is a place 2 mean radii below every face");
+    planned("deep", "many", draft, medium, true, "to be made where a place lies 2 mean radii below every face");
     planned("all", "bed", vpt, medium, true, "to be made, in place of all grains");
     planned("all", "bed", vpt, walk, true, "to be walked");
     planned("all", "bed", with(vpt, formula), walk, false, "the form of the medium needs none");
@@ -230,55 +232,56 @@ std::vector<PlanRow> plan_rows()
     traced("apart", "apart", with(ept, {"--accuracy", "draft", "--grain-depth", "3"}), medium, false,
            "no place is 3 mean radii deep");
     traced("apart", "apart", with(ept, {"--accuracy", "draft", "--grain-depth", "3"}), walk, false,
-           "no medium follows from it");
-    traced("apart", "apart", vpt, medium, false, "no grain is deeper than a radius");
+           "no medium is made from it");
+    traced("apart", "apart", vpt, medium, false, "no grain lies deeper than one radius");
     traced("apart", "apart", stf, "shells", false, "there is no medium");
 
-    // Media of the scene, and ways through all of them.
+    // Media of the scene, and shells and distances in all media.
     planned("slab", "slab", {}, "medium 'slab.obj'", true, "the same everywhere, within 12 triangles");
     planned("cloud", "cloud", {}, "medium 'cloud.vdb'", true, "to be read");
     planned("empty", "empty cloud", {}, "medium 'empty.vdb'", false, "its grid is empty");
     planned("empty", "empty cloud", {}, "shells", false, "there is no medium");
     planned("empty", "empty cloud", {}, distances, false, "there is no medium");
-    planned("to come", "slab", {}, distances, true, "to be found");
-    planned("to come", "cloud", {}, "shells", true, "to be made, where one of 8 mean free paths fits in a medium");
+    planned("to come", "slab", {}, distances, true, "to be computed");
+    planned("to come", "cloud", {}, "shells", true, "to be made where a shell of 8 mean free paths fits in a medium");
     planned("to come", "cloud", {}, "shells", true, "fits in a medium and, in grids, where they save work");
-    planned("to come", "slab", stf, "shells", true, "to be made, where one of 1 mean free paths fits in a medium");
+    planned("to come", "slab", stf, "shells", true, "to be made where a shell of 1 mean free paths fits in a medium");
     planned("to come", "slab", {"--least-shell", "2"}, "shells", true,
-            "to be made, where one of 2 mean free paths fits in a medium");
+            "to be made where a shell of 2 mean free paths fits in a medium");
     planned("to come", "bed", stf, "shells", true, "to be made");
     planned("small shells", "slab", {}, "shells", false,
-            "none can have more than 2.5 mean free paths, of use are 8 and more");
+            "no shell can be larger than 2.5 mean free paths; at least 8 are needed");
     planned("thin", "thin slab", stf, "shells", false,
-            "none can have more than 0.0005 mean free paths, of use are 1 and more");
+            "no shell can be larger than 0.0005 mean free paths; at least 1 are needed");
     planned("coloured", "coloured slab", stf, "shells", false, "the extinction of every medium depends on the channel");
-    planned("stepwise", "slab", vpt, "shells", false, "light is followed from scattering to scattering in media");
+    planned("stepwise", "slab", vpt, "shells", false, "light in media is traced from scattering to scattering");
     planned("among grains", "slab among grains", {}, distances, false,
-            "grains, or a spherical light, may be met in it");
-    planned("among grains", "slab among grains", {}, "shells", false, "grains, or a spherical light, may be met in it");
+            "grains or a sphere light may lie inside a medium");
+    planned("among grains", "slab among grains", {}, "shells", false,
+            "grains or a sphere light may lie inside a medium");
     planned("among no grains any more", "slab and bed", stf, "shells", true, "to be made");
-    traced("slab", "slab", draft, distances, true, "from all that may be met there");
+    traced("slab", "slab", draft, distances, true, "to everything that a ray can hit there");
     const Arguments shells{"--shells", "on"};
     traced("slab", "slab", with(with(draft, shells), diffusion), "shells of 'slab.obj'", true,
            "mean free paths for 1 values of g, 0 made now");
     traced("slab", "slab", with(draft, shells), "shells of 'slab.obj'", true,
            "mean free paths for 1 values of g, 3 made now");
-    traced("small shells", "slab", draft, "shells of 'slab.obj'", false, "of use are 8 and more");
-    traced("slab", "slab", vpt, "shells", false, "light is followed from scattering to scattering in media");
-    traced("slab", "slab", vpt, distances, true, "from all that may be met there");
+    traced("small shells", "slab", draft, "shells of 'slab.obj'", false, "at least 8 are needed");
+    traced("slab", "slab", vpt, "shells", false, "light in media is traced from scattering to scattering");
+    traced("slab", "slab", vpt, distances, true, "to everything that a ray can hit there");
     traced("coloured", "coloured slab", stf, "shells of 'slab.obj'", false, "its extinction depends on the channel");
     traced("thin", "thin slab", stf, "shells of 'slab.obj'", false, "none fits: no place is a mean free path away");
     traced("among grains", "slab among grains", draft, distances, false,
-           "grains, or a spherical light, may be met in it");
+           "grains or a sphere light may lie inside a medium");
     traced("among grains", "slab among grains", draft, "shells of 'slab.obj'", false,
-           "grains, or a spherical light, may be met in it");
+           "grains or a sphere light may lie inside a medium");
     traced("around a light", "slab around a light", draft, "shells of 'slab.obj'", false,
-           "grains, or a spherical light, may be met in it");
+           "grains or a sphere light may lie inside a medium");
     traced("cloud", "cloud", with(draft, diffusion), "medium 'cloud.vdb'", true, "from grids");
     traced("cloud", "cloud", with(with(draft, shells), diffusion), "shells of 'cloud.vdb'", true, "for 1 values of g");
     traced("save nothing", "dense cloud", with(draft, diffusion), "shells of 'cloud.vdb'", false,
-           "of the work, of use are 95 % and less");
-    traced("save work", "denser cloud", with(draft, diffusion), "shells of 'cloud.vdb'", true, "each, for ");
+           "of the work; at most 95 % is worthwhile");
+    traced("save work", "denser cloud", with(draft, diffusion), "shells of 'cloud.vdb'", true, "a shell, for ");
     for (const Arguments& asked : {Arguments{"--least-shell", "8"}, shells})
         traced("asked for", "dense cloud", with(with(draft, asked), diffusion), "shells of 'cloud.vdb'", true,
                "0 made now");

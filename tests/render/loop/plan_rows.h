@@ -8,24 +8,25 @@ namespace scree::test {
 
 using Arguments = std::vector<std::string>;
 
-/// A line that `scree render` prints for a scene: of the plan where the arguments hold `--plan`, else of the
+/// A line that `scree render` prints for a scene: of the plan if the arguments contain `--plan`, else of the
 /// statistics.
 struct PlanRow {
     std::string name, scene;
     Arguments arguments;
     std::string part;
     bool built;
-    std::string reason; ///< a part of it
+    std::string reason; ///< a substring of the reason
 };
 
-/// Scenes by name: their keys but for camera and film. They name cube.obj, floor.obj, slab.obj, ball.obj, tile.vdb,
+/// Scenes by name: their keys except camera and film. They name cube.obj, floor.obj, slab.obj, ball.obj, tile.vdb,
 /// cloud.vdb, empty.vdb, sky.exr.
 std::map<std::string, std::string> plan_scenes();
 
-/// A row at least for every line there is, in this order: what is traced for one scene another finds in the cache.
+/// At least one row for every possible line. The order matters: later scenes find in the cache what earlier ones
+/// traced.
 std::vector<PlanRow> plan_rows();
 
-/// Both, one after the other.
+/// The arguments of a, then those of b.
 Arguments with(Arguments a, const Arguments& b);
 
 // Ways to render.

@@ -1,4 +1,4 @@
-// Nothing is built that no path can use: a scene for each line by which `--plan` and the statistics tell of it.
+// Nothing is built that no path can use: there is a scene for each line of `--plan` and of the statistics.
 
 #include "packing/tiles/tile_generator.h"
 #include "render/app/render_command.h"
@@ -31,11 +31,11 @@ struct Line {
     std::string reason;
     double seconds = 0, bytes = 0;
 
-    /// Without the name of what it is a part of.
+    /// The part without the name in quotes.
     std::string kind() const { return part.substr(0, part.find(" '")); }
 };
 
-/// The render command in this process, as a start of the program takes a third of a second.
+/// Runs the render command in this process, because starting the program takes a third of a second.
 class PlanLines : public testing::Test {
 protected:
     PlanLines()
@@ -67,7 +67,7 @@ protected:
         grid->setTransform(openvdb::math::Transform::createLinearTransform(0.2));
         openvdb::io::File(path(name)).write({grid});
     }
-    /// The lines of `--plan` (when the arguments have it) or of the statistics.
+    /// The lines of `--plan` (if the arguments contain it) or of the statistics.
     const std::vector<Line>& run(const std::string& scene, const std::vector<std::string>& more)
     {
         const auto [found, is_new] = lines_.try_emplace({scene, more});
@@ -82,7 +82,7 @@ protected:
         std::filesystem::remove(path("stats.json"));
         CLI::App app;
         add_render_command(app);
-        std::ranges::reverse(arguments); // as CLI11 wants them
+        std::ranges::reverse(arguments); // the order that CLI11 expects
         std::string wrong;
         testing::internal::CaptureStdout();
         try {
@@ -149,7 +149,7 @@ TEST_F(PlanLines, EveryLineIsPrintedForAScene)
         EXPECT_EQ(line->built, row.built);
         EXPECT_THAT(line->reason, HasSubstr(row.reason));
     }
-    // And none is printed that no row expects.
+    // And no line is printed that no row expects.
     std::set<std::tuple<std::string, bool, std::string>> expected;
     for (const PlanRow& row : rows)
         expected.insert({Line{row.part, row.built, ""}.kind(), row.built, without_numbers(row.reason)});
@@ -173,7 +173,7 @@ TEST_F(PlanLines, DoNotContradictEachOther)
         for (const auto& [name, keys] : scenes_) {
             if (name.starts_with("many") || name == "thin" || name == "pattern" || name == "library" ||
                 name == "fill of a mixture")
-                continue; // take longer, and have nothing new
+                continue; // slow, and they add no new lines
             SCOPED_TRACE(fmt::format("{} {}", name, fmt::join(how, " ")));
             const std::vector<Line>&planned = run(name, with(how, plan_only)), &lines = run(name, how);
             const auto is_built = [&](const std::string& part) {
@@ -218,7 +218,8 @@ TEST_F(PlanLines, DoNotContradictEachOther)
                     EXPECT_TRUE(std::ranges::any_of(
                         lines, [](const Line& other) { return other.built && other.part.starts_with("medium "); }));
                 }
-                // What the plan skips is not built after all, and the other way round but for what only the work shows.
+                // Parts skipped by the plan are not built; planned parts are built unless only building could show why
+                // not.
                 const Line* before = find_line(planned, line.part);
                 if (kind == "shells of") before = find_line(planned, "shells");
                 ASSERT_TRUE(before) << line.part << " is not in the plan";
@@ -228,7 +229,7 @@ TEST_F(PlanLines, DoNotContradictEachOther)
                     EXPECT_THAT(before->reason, HasSubstr("to be ")) << line.part;
                 }
             }
-            if (name == "slab" || name == "thin slab" || name == "coloured slab") { // their boxes tell
+            if (name == "slab" || name == "thin slab" || name == "coloured slab") { // their boxes decide
                 const auto of_slab = std::ranges::find(lines, "shells of", &Line::kind);
                 EXPECT_EQ(find_line(planned, "shells")->built, of_slab != lines.end() && of_slab->built);
             }

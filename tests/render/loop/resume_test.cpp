@@ -1,4 +1,4 @@
-// An interrupted render goes on to the bit, and only with what it began with.
+// An interrupted render continues to the same bits, and only with the same input.
 
 #include "render/film/checkpoint.h"
 #include "render/film/exr_output.h"
@@ -33,14 +33,14 @@ TEST(PictureResumed, AfterATimeoutIsTheSameAsInOneGo)
     const Picture first = part(1e-9, false);
     EXPECT_EQ(first.numbers.at("spp"), 1);
     EXPECT_TRUE(std::filesystem::exists(checkpoint));
-    const Picture second = part(1e-9, true); // what there is already counts as the first wave
+    const Picture second = part(1e-9, true); // the existing samples count as the first wave
     EXPECT_LT(second.numbers.at("spp"), 12);
     EXPECT_TRUE(std::filesystem::exists(checkpoint));
     const Picture last = part(0, true);
     EXPECT_EQ(last.numbers.at("spp"), 12);
     EXPECT_EQ(difference(last, whole), "");
     EXPECT_FALSE(std::filesystem::exists(checkpoint)) << "a finished picture needs none";
-    EXPECT_EQ(difference(part(0, true), whole), "") << "resuming from nothing starts afresh";
+    EXPECT_EQ(difference(part(0, true), whole), "") << "resuming without a checkpoint starts from the beginning";
 }
 
 /// An environment map of one bright texel.
@@ -52,8 +52,7 @@ void write_sky(const std::filesystem::path& path, double radiance)
     write_exr(path, film, {}, {});
 }
 
-/// A render that a timeout stopped after its first wave; `found` says what a resumption finds wrong, "" when nothing
-/// is.
+/// A render that a timeout stopped after its first wave; `found` returns what a resumption finds wrong, or "".
 class PictureResumedOnOther : public testing::Test {
 protected:
     PictureResumedOnOther()
@@ -152,7 +151,7 @@ TEST_F(PictureResumedOnOther, DamagedCheckpointIsRefused)
     EXPECT_THAT(found(), HasSubstr("no checkpoint"));
 }
 
-/// A ball of glass among clay, and what renders it without files.
+/// A ball of glass among clay, and everything to render it without files.
 struct SmallScene {
     SmallScene()
     {

@@ -1,4 +1,4 @@
-// What `scree render SCENE --plan` says of many scenes, in one process: a line "verdict STATUS MESSAGE" for each.
+// Runs `scree render SCENE --plan` for many scenes in one process; prints "verdict STATUS MESSAGE" for each.
 
 #include "base/error.h"
 #include "render/loop/render_job.h"

@@ -210,13 +210,13 @@ TEST(SceneDescription, LibraryShapesBringTheirMaterial)
     EXPECT_EQ(fine.shape.triangles, 5000u);
     EXPECT_EQ(fine.shape.seed, 7u);
     EXPECT_EQ(fine.shape.parameters, (std::map<std::string, double>{{"chips", 2}}));
-    // A material beside it replaces it.
+    // A material of the scene replaces the library's.
     const GrainTypeDescription clay_sugar =
         read_type(R"({"shape": "brown_sugar", "material": {"kind": "lambert", "reflectance": 0.25}})");
     EXPECT_EQ(clay_sugar.library, &sugar);
     EXPECT_EQ(clay_sugar.material.kind, MaterialKind::lambert);
     EXPECT_EQ(clay_sugar.material.reflectance, Color(0.25f));
-    // Spheres are meshes only when triangles are asked for.
+    // Spheres are meshes only if `triangles` is set.
     EXPECT_FALSE(read_type(R"({"shape": "diffuse_sphere"})").has_mesh());
     EXPECT_TRUE(read_type(R"({"shape": {"library": "diffuse_sphere", "triangles": 80}})").has_mesh());
 }
@@ -256,7 +256,7 @@ TEST(SceneDescription, ReadsIntegrators)
     EXPECT_EQ(switches.least_shell, 4);
     EXPECT_FALSE(IntegratorDescription().grain_pixels || IntegratorDescription().grain_flights ||
                  IntegratorDescription().least_shell);
-    EXPECT_FALSE(scene.integrator.shells) << "as the integrator has it";
+    EXPECT_FALSE(scene.integrator.shells) << "left to the integrator";
     EXPECT_EQ(scene.integrator.stf_form, StfForm::full);
     const IntegratorDescription stf =
         read_with(R"("integrator": {"kind": "stf", "shells": false, "stf_form": "diffusion"})").integrator;

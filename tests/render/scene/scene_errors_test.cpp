@@ -1,4 +1,4 @@
-// What is said when something is wrong with a scene file, and where.
+// The messages about errors in a scene file, and the places they name.
 
 #include "tests/builders/scene_texts.h"
 #include "tests/builders/test_files.h"
@@ -39,10 +39,10 @@ const std::vector<Wrong> wrong_scenes{
     {R"({"camera": {"target": [0, 0, 1]}})", "/camera", "no key 'origin'", "the key 'origin'", ""},
     {R"({"camera": {"origin": [0, 0], "target": [0, 0, 1]}})", "/camera/origin", "[0,0]", "a list of 3", ""},
     {R"({"camera": {"origin": [0, "a", 0], "target": [0, 0, 1]}})", "/camera/origin/1", "\"a\"", "a number", ""},
-    {R"({"camera": {"origin": [0, 0, 1], "target": [0, 0, 1]}})", "/camera/target", "[0,0,1]", "away from the origin",
-     ""},
-    {R"({"camera": {"origin": [0, 0, 9], "target": [0, 0, 1]}})", "/camera", "an 'up' along the view",
-     "across the view", "another axis"},
+    {R"({"camera": {"origin": [0, 0, 1], "target": [0, 0, 1]}})", "/camera/target", "[0,0,1]",
+     "that differs from the origin", ""},
+    {R"({"camera": {"origin": [0, 0, 9], "target": [0, 0, 1]}})", "/camera", "an 'up' parallel to the view",
+     "not parallel to the view", "another axis"},
     {R"({"camera": {"origin": [0, 0, 9], "target": [0, 1, 1], "up": [0, 0, 0]}})", "/camera/up", "[0,0,0]", "not 0",
      ""},
     {R"({"camera": {"origin": [0, 1, 0], "target": [0, 0, 0], "fov": 180}})", "/camera/fov", "180", "below 180 degrees",

@@ -1,11 +1,11 @@
-"""The shipped schema says what the program says: of the examples, of good scenes and of broken ones.
+"""The shipped schema accepts what the program accepts: the examples, good scenes and broken scenes.
 
     schema_test.py SCHEMA SCREE PLAN_SCENES EXAMPLES
 
-For every scene, validation against the schema must agree with the exit code of `scree render SCENE --plan` (0 or 2); as a start of
-scree takes a third of a second, PLAN_SCENES tells that for many scenes at once, and scree itself for the examples and some. A broken
-scene is the good one with one change. What a schema cannot say (a target away from the origin) is told apart: there only the
-program must refuse.
+For every scene, validation against the schema must agree with the exit code of `scree render SCENE --plan` (0 or 2).
+Starting scree takes a third of a second, so PLAN_SCENES checks many scenes in one process; scree itself checks the
+examples and some others. A broken scene is the good scene with one change. Conditions that a schema cannot express (a
+target that differs from the origin) are listed separately: only the program must refuse those scenes.
 """
 
 import copy
@@ -42,7 +42,7 @@ GOOD = {
 
 REMOVE = object()
 
-# (path of keys, value): each on its own makes another good scene.
+# (path of keys, value): each change alone makes another good scene.
 GOOD_CHANGES = [
     ((), {}),
     (("$schema",), "scene.schema.json"),
@@ -76,7 +76,7 @@ GOOD_CHANGES = [
     (("grains", "unit"), "m"), (("grains", "unit"), "cm"), (("grains", "unit"), "mm"), (("grains", "unit"), "um"), (("grains", "unit"), 0.0254),
 ]
 
-# Each on its own makes a scene that both refuse.
+# Each change alone makes a scene that the schema and the program refuse.
 BAD_CHANGES = [
     (("camera",), REMOVE), (("camra",), {}), (("camera",), []), (("camera", "kind"), "fisheye"), (("camera", "origin"), REMOVE), (("camera", "target"), [0, 0]),
     (("camera", "target"), [0, 0, "1"]), (("camera", "up"), [0, 0, 0]), (("camera", "fov"), 0), (("camera", "fov"), 180), (("camera", "fov"), "wide"),
@@ -126,7 +126,7 @@ BAD_CHANGES = [
     (("integrator", "max_depth"), 0), (("integrator", "max_depth"), 1.5), (("integrator", "depth"), 3), (("$schema",), 3), (("lihgts",), []),
 ]
 
-# What only the program can see.
+# Errors that only the program can detect.
 BEYOND_A_SCHEMA = [
     (("camera", "target"), [0, -10, 2]), (("camera", "up"), [0, -10, 1]), (("lights", 2, "edges"), [[1, 0, 0], [2, 0, 0]]),
     (("grains", "assembly", "types"), {"1": "glass", "2": "pebbel"}), (("grains", "assembly", "types"), {"1": "glass"}),
@@ -161,7 +161,7 @@ def main():
     schema_file, scree, plan_scenes, examples = sys.argv[1:]
     schema = json.loads(pathlib.Path(schema_file).read_text())
     jsonschema.Draft202012Validator.check_schema(schema)
-    # Its reference to the mixtures' schema is a file beside it.
+    # Resolves the reference to the mixtures' schema, which is a relative path.
     resolver = jsonschema.RefResolver(pathlib.Path(schema_file).resolve().as_uri(), schema)
     validator = jsonschema.Draft202012Validator(schema, resolver=resolver)
     failures = []

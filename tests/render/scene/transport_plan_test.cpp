@@ -1,4 +1,4 @@
-// What transport is planned: every branch of the integrators and accuracies, and what the user sets.
+// The transport plan: every branch of the integrators and accuracies, and the user's switches.
 
 #include "render/build/grain_facts.h"
 #include "render/scene/transport_plan.h"
@@ -47,7 +47,7 @@ void expect_every_grain_as_it_is(const TransportPlan& plan)
     EXPECT_FALSE(plan.has_proxies());
     EXPECT_FALSE(plan.needs_gsdfs());
     EXPECT_FALSE(plan.has_grain_medium);
-    EXPECT_THAT(plan.why, HasSubstr("every grain as it is"));
+    EXPECT_THAT(plan.why, HasSubstr("every grain is traced as explicit geometry"));
     EXPECT_EQ(plan.why_no_medium, "the integrator traces grains everywhere");
 }
 
@@ -58,7 +58,7 @@ TEST_F(Plans, EptTracesGrainsAsTheyAre)
         EXPECT_FALSE(plan(IntegratorKind::ept, accuracy).has_shells);
         EXPECT_EQ(plan(IntegratorKind::ept, accuracy).name(), "ept");
     }
-    integrator.explicit_grains = 3; // is for auto and ppt
+    integrator.explicit_grains = 3; // only used by auto and ppt
     expect_every_grain_as_it_is(plan(IntegratorKind::ept));
 }
 
@@ -69,7 +69,7 @@ TEST_F(Plans, PptTakesProxies)
         EXPECT_FALSE(all.has_exemplars());
         EXPECT_TRUE(all.has_proxies() && all.needs_gsdfs());
         EXPECT_FALSE(all.has_grain_medium || all.has_shells);
-        EXPECT_EQ(all.why, "proxies stand for grains");
+        EXPECT_EQ(all.why, "proxies replace every grain");
         EXPECT_EQ(all.accuracy, accuracy);
         EXPECT_EQ(all.name(), "ppt");
     }
@@ -77,7 +77,7 @@ TEST_F(Plans, PptTakesProxies)
     const TransportPlan later = plan(IntegratorKind::ppt);
     EXPECT_TRUE(later.has_exemplars() && later.has_proxies());
     EXPECT_EQ(later.explicit_grains, 2u);
-    EXPECT_EQ(later.why, "proxies stand for all grains but the first 2 of a path");
+    EXPECT_EQ(later.why, "proxies replace all grains except the first 2 of a path");
 }
 
 TEST_F(Plans, VptAndStfTakeAMedium)
@@ -88,7 +88,7 @@ TEST_F(Plans, VptAndStfTakeAMedium)
             EXPECT_TRUE(all.replaces_all && all.has_grain_medium && all.needs_gsdfs());
             EXPECT_FALSE(all.has_exemplars() || all.has_proxies());
             EXPECT_EQ(all.has_shells, kind == IntegratorKind::stf);
-            EXPECT_EQ(all.why, "a medium stands for all grains");
+            EXPECT_EQ(all.why, "a medium replaces all grains");
             EXPECT_EQ(all.why_no_medium, "");
         }
         integrator.grain_depth = 4;
@@ -122,8 +122,8 @@ TEST_F(Plans, AutoGoesByAccuracy)
         EXPECT_EQ(made.why_no_medium, "");
         EXPECT_EQ(made.name(), "auto");
     }
-    EXPECT_EQ(automatic(Accuracy::standard).why, "proxies stand for all grains but the first of a path");
-    EXPECT_EQ(automatic(Accuracy::draft).why, "proxies stand for grains: the accuracy is that of a draft");
+    EXPECT_EQ(automatic(Accuracy::standard).why, "proxies replace all grains except the first of a path");
+    EXPECT_EQ(automatic(Accuracy::draft).why, "proxies replace every grain: the accuracy is draft");
 }
 
 TEST_F(Plans, AutoTracesFewGrainsAsTheyAre)
@@ -142,7 +142,7 @@ TEST_F(Plans, AutoTracesAbsorbingGrainsAsTheyAre)
 {
     facts.loss = 0.07; // 3.8 encounters
     expect_every_grain_as_it_is(automatic());
-    EXPECT_THAT(automatic().why, HasSubstr("light meets some 3.8 of them"));
+    EXPECT_THAT(automatic().why, HasSubstr("light hits about 3.8 grains"));
     facts.loss = 0.06;
     EXPECT_TRUE(automatic().has_proxies());
     facts.loss = 0;
@@ -156,9 +156,9 @@ TEST_F(Plans, AutoTakesProxiesForGrainsThatAreNotResolved)
     const TransportPlan far = automatic();
     EXPECT_EQ(far.explicit_grains, 0u);
     EXPECT_FALSE(far.has_exemplars());
-    EXPECT_THAT(far.why, HasSubstr("the largest looks 0.16 pixels wide"));
+    EXPECT_THAT(far.why, HasSubstr("the largest looks only 0.16 pixels wide"));
     EXPECT_FALSE(automatic(Accuracy::high).has_exemplars());
-    camera.origin = {0, -7000, 0}; // 0.68 pixels: enough for a standard's 1, but not for the 0.5 of a high accuracy
+    camera.origin = {0, -7000, 0}; // 0.68 pixels: below the 1 of standard, above the 0.5 of high accuracy
     EXPECT_FALSE(automatic().has_exemplars());
     EXPECT_TRUE(automatic(Accuracy::high).has_exemplars());
     camera.origin = {0, 0, 0}; // amid the grains
@@ -175,10 +175,10 @@ TEST_F(Plans, AutoTakesProxiesForGrainsThatAreNotResolved)
 
 TEST_F(Plans, AutoTakesNoMediumInThinBeds)
 {
-    facts.bounds.min.z = -5.9; // on each side of the middle: 1.5 depths of 4 radii are 6
+    facts.bounds.min.z = -5.9; // half the thickness must exceed 1.5 depths of 4 radii, which is 6
     facts.bounds.max.z = 5.9;
     EXPECT_FALSE(automatic().has_grain_medium);
-    EXPECT_EQ(automatic().why_no_medium, "hardly a grain is 4 mean radii deep");
+    EXPECT_EQ(automatic().why_no_medium, "few grains lie 4 mean radii deep");
     EXPECT_TRUE(automatic().has_proxies() && automatic().needs_gsdfs());
     EXPECT_TRUE(automatic(Accuracy::draft).has_grain_medium);
     facts.bounds.max.z = 6.2;
@@ -189,17 +189,17 @@ TEST_F(Plans, TheUserHasTheLastWord)
 {
     integrator.explicit_grains = 5;
     EXPECT_EQ(automatic().explicit_grains, 5u);
-    EXPECT_EQ(automatic().why, "proxies stand for all grains but the first 5 of a path, as asked for");
+    EXPECT_EQ(automatic().why, "proxies replace all grains except the first 5 of a path, as asked for");
     camera.origin = {0, -30000, 0};
     EXPECT_TRUE(automatic().has_exemplars());
-    EXPECT_EQ(automatic().least_pixels, 0) << "as they are, however small";
+    EXPECT_EQ(automatic().least_pixels, 0) << "explicit geometry, however small";
     facts.count = 10;
     EXPECT_TRUE(automatic().has_proxies());
     EXPECT_THAT(automatic().why, HasSubstr("as asked for"));
     EXPECT_EQ(automatic().why_no_medium, "the integrator traces grains everywhere");
     EXPECT_TRUE(automatic(Accuracy::reference).has_proxies());
     integrator.explicit_grains = 0;
-    EXPECT_EQ(automatic().why, "proxies stand for grains, as asked for");
+    EXPECT_EQ(automatic().why, "proxies replace every grain, as asked for");
     EXPECT_FALSE(automatic().has_exemplars());
     integrator = {};
 
@@ -218,7 +218,7 @@ TEST_F(Plans, TheUserHasTheLastWord)
     EXPECT_EQ(plan(IntegratorKind::ept).why_no_medium, "no place is 60 mean radii deep");
     integrator = {};
 
-    integrator.grain_flights = 3; // and as many radii as the accuracy has it
+    integrator.grain_flights = 3; // with the depth in radii of the accuracy
     EXPECT_EQ(automatic().depth_radii, 4);
     EXPECT_EQ(automatic().depth_flights, 3);
     EXPECT_TRUE(plan(IntegratorKind::ppt).has_grain_medium);
@@ -245,10 +245,10 @@ TEST_F(Plans, TheUserHasTheLastWord)
     EXPECT_FALSE(plan(IntegratorKind::stf).shells_must_pay);
     integrator.shells = true;
     EXPECT_EQ(automatic().least_shell, 1);
-    EXPECT_FALSE(automatic().shells_must_pay) << "the user's word";
+    EXPECT_FALSE(automatic().shells_must_pay) << "set by the user";
     integrator = {};
     integrator.least_shell = 8;
-    EXPECT_FALSE(automatic().shells_must_pay) << "the user's word";
+    EXPECT_FALSE(automatic().shells_must_pay) << "set by the user";
     integrator.least_shell = 3;
     for (const IntegratorKind kind : kinds) EXPECT_EQ(plan(kind).least_shell, 3);
     integrator = {};
@@ -339,7 +339,7 @@ TEST(FactsOfList, WeighWhatGrainsAbsorbByCrossSection)
     frame.radius = {3, 1, 0};
     frame.id = {0, 1, 2};
     const GrainFacts facts = facts_of_list(frame, {0, 1, 1}, types);
-    EXPECT_EQ(facts.count, 2u) << "but for the one without a size";
+    EXPECT_EQ(facts.count, 2u) << "without the one of radius 0";
     EXPECT_EQ(facts.mean_radius, 2);
     EXPECT_EQ(facts.largest_radius, 3);
     EXPECT_NEAR(facts.loss, (9 * 0.1 + 1 * 0.5) / 10, 1e-6);
