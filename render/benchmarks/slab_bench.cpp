@@ -37,7 +37,7 @@ constexpr double wide = 40; // half its width over its thickness
 MediumRegion region(const V3d& lo, const V3d& hi, const ContinuousEquivalent& medium)
 {
     const TriangleMesh mesh = box_mesh(lo, hi);
-    MediumRegion region{"slab", {}, mesh.triangles, nullptr, nullptr, nullptr, true};
+    MediumRegion region{"slab", {}, mesh.triangles, nullptr, nullptr, true};
     for (const V3d& p : mesh.positions) region.positions.emplace_back(p);
     region.medium = std::make_shared<HomogeneousMedium>(V3d(medium.sigma_t), Color(V3f(medium.albedo)), medium.g);
     return region;

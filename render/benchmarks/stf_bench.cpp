@@ -55,7 +55,7 @@ public:
     {
         Imath::Box3d box;
         for (const V3d& p : mesh.positions) box.extendBy(p);
-        MediumRegion region{"statue", {}, mesh.triangles, nullptr, nullptr, nullptr};
+        MediumRegion region{"statue", {}, mesh.triangles, nullptr, nullptr};
         for (const V3d& p : mesh.positions) region.positions.emplace_back((p - box.center()) / box.size().z);
         region.medium = std::make_shared<HomogeneousMedium>(V3d(1), Color(1), 0.0);
         world.regions.push_back(std::move(region));

@@ -37,7 +37,7 @@ private:
 
     /// Grains on the path.
     struct Grains {
-        Place inside; ///< the grain that contains the path's point, if any
+        Place inside{}; ///< the grain that contains the path's point, if any
         uint64_t last = std::numeric_limits<uint64_t>::max(); ///< last grain traced as explicit geometry
         uint32_t explicit_left; ///< how many more grains may be
     };

@@ -104,7 +104,7 @@ void TestScene::build()
         world_.surfaces.push_back(std::move(surface));
     }
     for (const Medium& medium : media_) {
-        MediumRegion region{"medium", {}, medium.mesh.triangles, nullptr, nullptr, nullptr, medium.instead_of_grains};
+        MediumRegion region{"medium", {}, medium.mesh.triangles, nullptr, nullptr, medium.instead_of_grains};
         for (const V3d& p : medium.mesh.positions) region.positions.emplace_back(space.point(p));
         const V3d sigma_t = medium.sigma_t * space.world_length(1);
         region.medium = medium.table ? std::make_shared<HomogeneousMedium>(sigma_t, medium.albedo, medium.table)

@@ -33,7 +33,7 @@ GridSlab::GridSlab(double depth, double sigma_t, float albedo, double g, double 
     // The slab is cut out of the middle of the grid, where interpolation does not reach the grid's faces.
     const TriangleMesh mesh =
         box_mesh(unit * V3d(-0.5 * wide, -0.5 * wide, -0.5 * depth), unit * V3d(0.5 * wide, 0.5 * wide, 0.5 * depth));
-    MediumRegion region{"slab", {}, mesh.triangles, nullptr, nullptr, nullptr, false};
+    MediumRegion region{"slab", {}, mesh.triangles, nullptr, nullptr, false};
     GridMediumOptions options;
     options.albedo = Color(albedo);
     options.g = g;

@@ -44,7 +44,7 @@ Found look(const Fill& fill, const Light& light, bool nearest, bool shells, uint
     grids.g = g;
     for (int k = 0; k < 3; ++k) grids.to_scene[k][k] = 1.0 / n;
     const TriangleMesh mesh = cube();
-    MediumRegion region{"varying", {}, mesh.triangles, nullptr, nullptr, nullptr, false};
+    MediumRegion region{"varying", {}, mesh.triangles, nullptr, nullptr, false};
     for (const V3d& p : mesh.positions) region.positions.emplace_back(p);
     GridMediumOptions options;
     options.nearest = nearest;
