@@ -19,6 +19,7 @@ packing/solids
 packing/tiles
 packing/fill
 packing/report
+packing
 render/embree
 render/materials
 render/lights

@@ -5,6 +5,7 @@
 #include "render/build/grain_medium.h"
 #include "render/equivalent/walk_bed.h"
 #include "render/integrators/path_tracer.h"
+#include "render/media/homogeneous_medium.h"
 #include "tests/builders/grain_beds.h"
 #include "tests/builders/scenes.h"
 #include "tests/builders/shapes.h"
