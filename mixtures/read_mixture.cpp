@@ -282,15 +282,26 @@ MixtureDescription read_any(const JsonValue& json, const Scope& scope)
     }
     read_decision(object, scope, mixture.decided);
     const std::string& kind = mixture_kinds[object.require("kind").choice(mixture_kinds)];
-    if (kind == SingleDescription::name) mixture.kind = SingleDescription{read_type(object.require("type"), scope)};
-    if (kind == ExplicitDescription::name) mixture.kind = read_explicit(object, scope);
-    if (kind == RandomDescription::name) mixture.kind = read_random(object, scope);
-    if (kind == PerlinDescription::name) mixture.kind = read_perlin(object, scope);
-    if (kind == CheckerboardDescription::name) mixture.kind = read_checkerboard(object, scope);
-    if (kind == LayersDescription::name) mixture.kind = read_layers(object, scope);
-    if (kind == RadiusDescription::name) mixture.kind = read_radius(object, scope);
-    if (kind == GridDescription::name) mixture.kind = read_grid(object, scope);
-    if (kind == BlendDescription::name) mixture.kind = read_blend(object, scope);
+    if (kind == SingleDescription::name)
+        mixture.kind = SingleDescription{read_type(object.require("type"), scope)};
+    else if (kind == ExplicitDescription::name)
+        mixture.kind = read_explicit(object, scope);
+    else if (kind == RandomDescription::name)
+        mixture.kind = read_random(object, scope);
+    else if (kind == PerlinDescription::name)
+        mixture.kind = read_perlin(object, scope);
+    else if (kind == CheckerboardDescription::name)
+        mixture.kind = read_checkerboard(object, scope);
+    else if (kind == LayersDescription::name)
+        mixture.kind = read_layers(object, scope);
+    else if (kind == RadiusDescription::name)
+        mixture.kind = read_radius(object, scope);
+    else if (kind == GridDescription::name)
+        mixture.kind = read_grid(object, scope);
+    else if (kind == BlendDescription::name)
+        mixture.kind = read_blend(object, scope);
+    else
+        throw InputError(json.place(), "kind '" + kind + "'", "a kind that can be read");
     object.done();
     return mixture;
 }

@@ -5,8 +5,10 @@
 #include "base/text.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace scree {
@@ -15,11 +17,17 @@ namespace {
 
 constexpr int64_t most_pixels = 65536;
 
-std::vector<std::string> as_it_stands(const std::string& text) { return {text}; }
+/// A number as JSON writes it, anything else as a text: never null, true or an object.
+std::vector<std::string> number_or_text(const std::string& text)
+{
+    if (const auto number = to_double(text); number && std::isfinite(*number)) return {fmt::format("{}", *number)};
+    return {nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
+}
 
 std::vector<std::string> on_or_off(const std::string& text)
 {
-    return {text == "on" ? "true" : text == "off" ? "false" : text};
+    if (text != "on" && text != "off") throw InputError("--shells", "'" + text + "'", "on or off");
+    return {text == "on" ? "true" : "false"};
 }
 
 std::vector<std::string> size_json(const std::string& text)
@@ -61,7 +69,7 @@ const std::vector<SceneSwitch>& scene_switches()
         for (const IntegratorKey& key : integrator_keys()) {
             const bool is_switch = std::string(key.key) == "shells";
             all.push_back(
-                {key.flag, key.help, std::string("integrator.") + key.key, is_switch ? on_or_off : as_it_stands});
+                {key.flag, key.help, std::string("integrator.") + key.key, is_switch ? on_or_off : number_or_text});
         }
         return all;
     }();
@@ -70,7 +78,9 @@ const std::vector<SceneSwitch>& scene_switches()
 
 std::vector<SceneOverride> switch_overrides(const std::string& flag, const std::string& text)
 {
-    return std::ranges::find(scene_switches(), flag, &SceneSwitch::flag)->overrides(text);
+    const auto found = std::ranges::find(scene_switches(), flag, &SceneSwitch::flag);
+    if (found == scene_switches().end()) throw InputError(flag, "no such flag", "a flag that replaces a scene's value");
+    return found->overrides(text);
 }
 
 SceneDescription load_scene(const std::filesystem::path& file, const std::vector<SceneOverride>& overrides,
@@ -79,7 +89,13 @@ SceneDescription load_scene(const std::filesystem::path& file, const std::vector
     JsonDocument document = JsonDocument::load(file);
     for (const SceneOverride& value : overrides) document.override_value(value.path, value.json, value.flag);
     const std::string canonical = document.canonical();
-    for (const SceneOverride& value : switches) document.override_value(value.path, value.json, value.flag);
+    for (const SceneOverride& value : switches) {
+        try {
+            document.override_value(value.path, value.json, value.flag);
+        } catch (const InputError&) {
+            // The scene has something else than an object or a list there: read_scene() says so, and where.
+        }
+    }
     SceneDescription scene = read_scene(document, file);
     scene.canonical = canonical;
     return scene;
