@@ -2,7 +2,6 @@
 
 #include "base/content_hash.h"
 #include "base/error.h"
-#include "base/text.h"
 #include "ingest/meshes/mesh_hash.h"
 #include "ingest/meshes/triangle_mesh.h"
 #include "ingest/particles/particle_series.h"

@@ -1,6 +1,5 @@
 #include "render/loop/render_setup.h"
 
-#include "base/json.h"
 #include "render/loop/job_report.h"
 
 #include <algorithm>
