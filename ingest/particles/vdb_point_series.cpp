@@ -19,8 +19,16 @@ public:
     size_t frame_count() const override { return files_.size(); }
     int64_t step(size_t frame) const override { return read(frame).step; }
     uint64_t particle_count(size_t frame) const override { return read(frame).size(); }
-    const std::vector<std::string>& columns(size_t) const override { return none_; }
-    bool has_radius(size_t) const override { return true; }
+    const std::vector<std::string>& columns(size_t frame) const override
+    {
+        file(frame);
+        return none_;
+    }
+    bool has_radius(size_t frame) const override
+    {
+        file(frame);
+        return true;
+    }
     const std::vector<std::string>& type_names() const override { return none_; }
     const std::filesystem::path& file(size_t frame) const override
     {
